@@ -9,11 +9,10 @@ import numpy as np
 
 from fenics_gears.geometry.pair import GearPair
 
-from .mesh import Mesh, MeshTraits, nodes_at
+from .mesh import Mesh, nodes_at
 from .node_to_node import NodeResponse, by_direction, node_pairs, node_to_node_response
 from .operator import Passage, Response
 from .places import pair_places
-from .published_solver import PublishedSolver
 from .tooth_pair import PairNodes, Removal
 from .window import ContactGrid
 
@@ -36,14 +35,11 @@ def remeshed_mesh(
     stiffness: Sequence[tuple[np.ndarray, np.ndarray]],
     grid: ContactGrid,
     order: int,
-    coordinates: list[int],
 ) -> Mesh:
     """Contact nodes that are nodes of both gears' meshes: `pairs` at each position, `grid` and `order` as of
     `paired_nodes`.
 
-    `stiffness`: at each position that of pinion and wheel, N/mm per mm of face width, on the nodes of `loaded_teeth`;
-    `coordinates`: which centre coordinates are unknowns. Steps are solved by Newton with line search [B], and by the
-    program's own Newton and its fallbacks where that finds no solution.
+    `stiffness`: at each position that of pinion and wheel, N/mm per mm of face width, on the nodes of `loaded_teeth`.
     """
     gears = RemeshedGears(pair, pairs, stiffness)
     return Mesh(
@@ -51,8 +47,6 @@ def remeshed_mesh(
         ContactGrid(grid.length, order * (grid.nodes - 1) + 1),
         lambda phases: [pairs[round(phase * len(pairs))] for phase in phases],
         lambda passages: [gears.response(passage) for passage in passages],
-        PublishedSolver(coordinates, gears.stiffness),
-        MeshTraits(own_solver=True),
     )
 
 

@@ -24,10 +24,9 @@ from .newton import (
 
 NEWTON = "newton"
 NEWTON_AND_FALLBACKS = (NEWTON, "slip through stick", "one change at a time", "Tresca fixed point")
-PUBLISHED = "Newton with line search"
 # The march itself divides the step in two where all of these end without a solution.
 HALVED = "step halved"
-METHODS = (*NEWTON_AND_FALLBACKS, PUBLISHED, HALVED)
+METHODS = (*NEWTON_AND_FALLBACKS, HALVED)
 
 
 @dataclass(frozen=True)
@@ -55,14 +54,13 @@ def cold_start(gap: np.ndarray, node_pair: np.ndarray) -> np.ndarray:
     return status
 
 
-def solve_step(
-    problem: StepEquations, status: np.ndarray, max_iterations: int = MOST_ITERATIONS, before: tuple = ()
-) -> StepSolution:
-    """Solve one step from the sets `status` (n,) int8; `before`: attempts of other methods that failed.
+def solve_step(problem: StepEquations, status: np.ndarray, max_iterations: int = MOST_ITERATIONS) -> StepSolution:
+    """Solve one step from the sets `status` (n,) int8.
 
     Raises ContactNotConverged, of the kind that says why, with the history of every method when none converges.
     """
-    attempts, spent = list(before), sum(len(history) for _, _, history, _ in before)
+    attempts: list[tuple] = []
+    spent = 0
     for method, attempt in _methods(problem, status, max_iterations):
         result, record = attempt()
         attempts.append((method, OUTCOMES[result[0]], *record))

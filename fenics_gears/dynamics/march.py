@@ -24,8 +24,8 @@ from .stepping import EquationsOfMotion
 from .steps import Record, Steps
 
 SECONDS_BETWEEN_REPORTS = 0.1
-# Steps are handed on in blocks of at most so many; those of a cycle's own solver can take a tenth of a second each.
-LONGEST_BLOCK, LONGEST_BLOCK_OF_OWN_SOLVER = 512, 32
+# Steps are handed on in blocks of at most so many.
+LONGEST_BLOCK = 512
 
 Solved = TypeVar("Solved")
 Report = Callable[[int], None]
@@ -184,7 +184,7 @@ class Marcher:
             return steps + 1
         cycle = self.cycle.steps
         # Positions of a block are held together, also those that are not kept.
-        most = LONGEST_BLOCK_OF_OWN_SOLVER if self.cycle.traits.own_solver else LONGEST_BLOCK
+        most = LONGEST_BLOCK
         if self.cycle.traits.repeats:
             # The sets of the mesh cycle before are known when a block begins.
             most = min(most, cycle)

@@ -1,21 +1,16 @@
-"""How the cuts of a ring of equal sectors move under forces on one of them, by joining runs of sectors: for gears with
-many teeth.
+"""Runs of equal sectors joined to the rest of a ring, where not all its sectors are alike.
 
 A run of n sectors is two of n/2 with the cut between them eliminated, so that the cost grows with the logarithm of the
-number of teeth. The Fourier transform (`elasticity.ring`) takes one dense inverse for every other tooth. A run is its
+number of teeth. A run is its
 stiffness (2 c, 2 c) over its clockwise and its counter-clockwise cut, each cut's dofs (c) in its own sector's frame.
 """
 
-from collections.abc import Callable, Sequence
-from math import log2
+from collections.abc import Sequence
 
 import numpy as np
 from scipy.linalg import cho_factor, cho_solve
 
 from fenics_gears.errors import ComputationError
-
-# Response (c, c) of the cut m pitches ahead to forces on a cut, as a function of m.
-CutResponse = Callable[[int], np.ndarray]
 
 
 def joined(first: np.ndarray, second: np.ndarray) -> np.ndarray:
@@ -44,15 +39,6 @@ def run_of(link: np.ndarray, count: int) -> np.ndarray:
     return twice if count % 2 == 0 else joined(twice, link)
 
 
-def chain_response(link: np.ndarray, teeth: int, reach: int) -> CutResponse:
-    """Response of cuts up to `reach` pitches from the loaded one, in a ring of `teeth` sectors; reach < teeth. The
-    sectors between these cuts are single, those the long way round one run."""
-    cut = len(link) // 2
-    stiffness = closed_ring([link] * reach + [run_of(link, teeth - reach)], cut)
-    columns = _solved(stiffness, np.eye(len(stiffness), cut)).reshape(reach + 1, cut, cut)
-    return lambda offset: columns[offset] if offset >= 0 else columns[-offset].T
-
-
 def closed_ring(parts: Sequence[np.ndarray], cut: int) -> np.ndarray:
     """Stiffness of two or more parts that go once around the gear: over the lower cut of each part, then over their
     other dofs. parts: counter-clockwise, each over its lower cut (`cut` dofs), its upper cut in the frame of the part
@@ -65,15 +51,6 @@ def closed_ring(parts: Sequence[np.ndarray], cut: int) -> np.ndarray:
         dofs = np.r_[*cuts, inner[number] : inner[number + 1]]
         total[np.ix_(dofs, dofs)] += part
     return total
-
-
-def chain_is_quicker(teeth: int, reach: int) -> bool:
-    """Whether joining runs takes less than half of the Fourier transform's operations, both in cubes of a cut's dofs.
-    Else the transform is kept: its result is the same to the last bit for any reach."""
-    chain = (reach + 1) ** 3 / 3.0 + 2.0 * (reach + 1) ** 2 + 6.0 * log2(teeth)
-    # A complex inverse, of four real operations each, for half of the harmonics, and its share in every response.
-    fourier = 2.5 * teeth
-    return reach < teeth and 2.0 * chain < fourier
 
 
 def _solved(stiffness: np.ndarray, loads: np.ndarray) -> np.ndarray:

@@ -2,9 +2,10 @@
 
 Sector s + 1 is one pitch counter-clockwise of sector s; in the sectors' own frames its lower cut moves as ``u_upper[s]
 = R u_lower[s + 1]`` with ``R`` the rotation by one pitch. A discrete Fourier transform over the sectors, ``u[s] = U_k
-exp(i k s pitch)``, decouples the ring into one small system for each k = 0 ... teeth - 1. In gears with many teeth runs
-of sectors are joined instead (`elasticity.cut_chain`).
+exp(i k s pitch)``, decouples the ring into one small system for each k = 0 ... teeth - 1.
 """
+
+from collections.abc import Callable
 
 import numpy as np
 from scipy.linalg import block_diag, cho_solve, get_lapack_funcs
@@ -13,10 +14,12 @@ from scipy.linalg.blas import ztrsm
 from fenics_gears.errors import ComputationError
 
 from .condensation import CondensedBody, by_radius, condense, held_nodes, line_of
-from .cut_chain import CutResponse, chain_is_quicker, chain_response
 from .elements import Element
 from .mesh_data import BodyMesh
 from .mumps import symmetric
+
+# Response (c, c) of the cut m pitches ahead to forces on a cut, as a function of m.
+CutResponse = Callable[[int], np.ndarray]
 
 
 def condensed_sector(
@@ -111,23 +114,18 @@ def cyclic_motion(same: np.ndarray, ahead: np.ndarray, loads: np.ndarray) -> np.
 
 def cut_response(link: np.ndarray, teeth: int, reach: int) -> CutResponse:
     """Response (c, c) of the cut m pitches ahead to forces on a cut, abs(m) <= reach; `link`: one sector between its
-    cuts; `teeth`: negative of an internal gear, whose sectors go clockwise."""
-    count = abs(teeth)
-    return (chain_response if chain_is_quicker(count, reach) else fourier_response)(link, count, reach)
-
-
-def fourier_response(link: np.ndarray, teeth: int, reach: int) -> CutResponse:
-    """The same by the discrete Fourier transform.
+    cuts; `teeth`: negative of an internal gear, whose sectors go clockwise.
 
     The harmonics' stiffness is ``same + ahead e^{ik} + ahead^T e^{-ik}``, Hermitian; k and teeth - k are complex
     conjugates.
     """
     # D_k - B_k^H S_FF^-1 B_k of `ring_compliance`, by the powers 0 and 1 of e^{ik}; power -1 is the transpose of power
     # 1.
+    count = abs(teeth)
     same, ahead = cyclic(link)
     responses = np.zeros((reach + 1, *same.shape))
-    for harmonic in range(teeth // 2 + 1):
-        angle, weight = harmonic_of(harmonic, teeth)
+    for harmonic in range(count // 2 + 1):
+        angle, weight = harmonic_of(harmonic, count)
         phase = np.exp(1j * angle)
         inverse = definite_inverse(same + ahead * phase + ahead.T * np.conj(phase), "a harmonic")
         for offset in range(reach + 1):

@@ -10,7 +10,6 @@ from typing import Protocol
 
 import numpy as np
 
-from fenics_gears.dynamics.marched import March
 from fenics_gears.effects import result_variables
 from fenics_gears.scene.data import Scene
 
@@ -98,10 +97,9 @@ class Kind:
         dims, kind = stored.get(name, (("time",), values.dtype))
         return cls(kind, values.shape[1:], last if dims[0] == "contact_time" and last < steps else 0)
 
-    def places(self, first: int, end: int, spare: int = 0) -> np.ndarray | slice:
-        """Where the values of the steps from `first` to before `end` lie; `spare`: places beside those of the last
-        steps."""
-        return np.arange(first, end) % (self.last + spare) if self.last else slice(first, end)
+    def places(self, first: int, end: int) -> np.ndarray | slice:
+        """Where the values of the steps from `first` to before `end` lie."""
+        return np.arange(first, end) % self.last if self.last else slice(first, end)
 
     def kept_from(self, steps: int) -> int:
         """The first of so many steps that is kept."""
@@ -109,7 +107,7 @@ class Kind:
 
 
 class KeptArrays(Protocol):
-    """Values that have been kept, in memory or on disk."""
+    """Values that have been kept, or read from a journal."""
 
     def get(self, name: str, steps: int) -> np.ndarray:
         """The values of the first so many steps, in the order of time."""
@@ -126,9 +124,8 @@ class ArraysInMemory:
         self.kinds: dict[str, Kind] = {}
         self._arrays: dict[str, np.ndarray] = {}
 
-    def put(self, first: int, values: Values, march: March | None = None) -> None:
-        """Keep the values (s, ...) of the steps from `first` on, by name; the `march` so far is kept by who needs
-        it."""
+    def put(self, first: int, values: Values) -> None:
+        """Keep the values (s, ...) of the steps from `first` on, by name."""
         for name, own in values.items():
             if name not in self.kinds:
                 kind = self.kinds[name] = Kind.of(name, own, self.stored, self.steps, self.last)

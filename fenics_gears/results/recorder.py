@@ -1,7 +1,7 @@
 """Records a march while it goes: curves of all steps, contact fields of the last steps, and what the warnings need.
 
-Steps are evaluated some at a time and then dropped; their values are kept in memory (`model.storage`) or, of a long
-march, in a journal on disk (`results.journal`).
+Steps are evaluated some at a time and then dropped; their values are kept (`model.storage`), and those of a long march
+are written to a journal now and then (`results.journal`).
 """
 
 from __future__ import annotations
@@ -65,7 +65,7 @@ class KnownTouching:
 
 class Recorder:
     """Takes the steps of a march, block by block. `loads`: the varying ones, the model's unless given. `stress`: root
-    stress, if asked for. `journal`: where a long march is written down, in memory only where None.
+    stress, if asked for. `journal`: where a long march is written down; nowhere where None.
 
     `steps`: how many are recorded. `first_number`: of the pair that reaches the start of contact as the run begins.
     """
@@ -90,7 +90,8 @@ class Recorder:
             model.steps + 1, model.contact_steps, self.slots, nodes, cycle.face.slices, model.drivetrain.bearings
         )
         self.stored = stored_arrays(model.scene, self.size)
-        self._room = self._room_for(journal)
+        self._room = ArraysInMemory(self.stored, model.steps + 1, model.contact_steps)
+        self._journal = None if journal is None else Journal(journal, model.scene)
         self.kept: KeptArrays = self._room
         # Complete when the recorder has finished.
         self.arrays: dict[str, np.ndarray] = {}
@@ -105,16 +106,12 @@ class Recorder:
         self._singular = EdgesAndKinks(model)
         cycle.shared(KnownLayouts).forget_beyond(cycle.steps)
 
-    def _room_for(self, journal: JournalPlace | None) -> ArraysInMemory:
-        room = self.stored, self.model.steps + 1, self.model.contact_steps
-        if journal is None:
-            return ArraysInMemory(*room)
-        return Journal(journal, self.model.scene, *room)
-
     def take(self, solved: Steps, march: March | None = None) -> None:
         """The next steps, and the march so far, which a journal keeps too."""
         self._waiting.append(solved)
-        self._evaluate(march)
+        self._evaluate()
+        if self._journal is not None and march is not None:
+            self._journal.write(self._room, self.steps, march)
 
     def finish(self) -> None:
         """After the last step: put all into the order of time."""
@@ -137,11 +134,11 @@ class Recorder:
         self.steps = len(recorded.values["time"])
         self._watched = tuple(name.removeprefix(WATCHED) for name in recorded.values if name.startswith(WATCHED))
 
-    def _evaluate(self, march: March | None = None) -> None:
+    def _evaluate(self) -> None:
         while self._waiting:
-            self._evaluate_block(self._waiting[0], march)
+            self._evaluate_block(self._waiting[0])
 
-    def _evaluate_block(self, block: Steps, march: March | None) -> None:
+    def _evaluate_block(self, block: Steps) -> None:
         scene = self.model.scene
         cycle = self.cycle
         nodes = SideBySide(cycle.shared(KnownLayouts), cycle, block, self.slots, self.first_number)
@@ -178,7 +175,7 @@ class Recorder:
         kept = {
             name: self._in_shape(evaluated[name], dims) for name, (dims, _) in self.stored.items() if name in evaluated
         }
-        self._room.put(self.steps, kept | {f"{WATCHED}{name}": of for name, of in watched.items()}, march)
+        self._room.put(self.steps, kept | {f"{WATCHED}{name}": of for name, of in watched.items()})
         # Last of all: a march that is interrupted before this line evaluates these steps again.
         self._watched = tuple(watched)
         del self._waiting[0]

@@ -3,9 +3,8 @@
 import math
 from collections.abc import Iterator, Sequence
 
-from fenics_gears.contact.step_solver import NEWTON, PUBLISHED
+from fenics_gears.contact.step_solver import NEWTON
 from fenics_gears.inputs.tree import GEARS
-from fenics_gears.model.resolution import EVERY_STEP
 from fenics_gears.system.progress import seconds_in_words
 
 from .key_numbers import HARMONIC_NAMES
@@ -255,7 +254,7 @@ def solver_rows(dataset) -> list[Row]:
         most = int(iterations.max())
         rows.append(("Newton iterations per step", f"{mean:.2f} on average, {most} at most", ""))
     used = {name.removeprefix(RUNG): int(count) for name, count in numbers.items() if name.startswith(RUNG)}
-    used.pop(PUBLISHED if numbers.get("condensation") == EVERY_STEP else NEWTON, None)
+    used.pop(NEWTON, None)
     if used:
         rows.append(("steps solved by fallbacks", ", ".join(f"{count} by {rung}" for rung, count in used.items()), ""))
     return rows

@@ -12,7 +12,6 @@ from dataclasses import replace
 from itertools import chain
 from math import cos, pi, tan
 from types import ModuleType
-from typing import Any
 
 from fenics_gears.effects.tooth_elasticity import material_of
 from fenics_gears.geometry.gear import DECIMALS_IN_MODULES
@@ -21,6 +20,7 @@ from fenics_gears.geometry.gear_data import RACKS, ROUNDING, USUAL_BORE, GearDat
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.inputs.tree import GEARS, MODULES, PRESSURE_ANGLES, in_normal_section
 
+from .gear_parts import of_rack, protuberance
 from .gear_schema import Gears, GearText
 from .schema import Derived
 
@@ -71,15 +71,11 @@ def gear_pair_data(gears: Gears) -> tuple[GearPairData, list[Derived]]:
 def _with_profile_shifts(gears: Gears) -> tuple[Gears, list[Derived]]:
     """The section with a profile shift, or a measure, of both gears, and what was derived."""
     if any(gear.profile_shift is None and gear.measure is None for gear in (gears.pinion, gears.wheel)):
-        return _unstated_shift().with_profile_shifts(gears)
+        # Hardly a drawing leaves them out.
+        from . import unstated_shift
+
+        return unstated_shift.with_profile_shifts(gears)
     return gears, []
-
-
-def _unstated_shift() -> ModuleType:
-    """Profile shifts that are left out."""
-    from . import unstated_shift
-
-    return unstated_shift
 
 
 def _inner_diameter(name: str, own: GearText, drawn: GearData) -> tuple[float, list[Derived]]:
@@ -247,8 +243,8 @@ def _gear_data(
 ) -> tuple[GearData, list[Derived]]:
     derived = []
     reference = pair.module * drawn.teeth / cos(pair.helix_angle or 0.0)
-    standard = RACKS[_of_rack(pair, drawn, "profile") or "ISO 53 A"]
-    addendum, dedendum, radius = (_of_rack(pair, drawn, figure) for figure in ("addendum", "dedendum", "tip_radius"))
+    standard = RACKS[of_rack(pair, drawn, "profile") or "ISO 53 A"]
+    addendum, dedendum, radius = (of_rack(pair, drawn, figure) for figure in ("addendum", "dedendum", "tip_radius"))
     internal = drawn.teeth < 0
     sign = -1.0 if internal else 1.0
     signed = SIGNED if internal else ""
@@ -261,7 +257,7 @@ def _gear_data(
     if root is None:
         root, words = _root(pair, drawn, cut, standard[1] if dedendum is None else dedendum)
         derived.append(Derived(f"{name} root diameter", sign * root, "mm", words))
-    beyond, angle = _protuberance(pair, drawn)
+    beyond, angle = protuberance(pair, drawn)
     cutter = ring_drawing().cutter_of(drawn) if internal else None
     if radius is None and internal:
         gear = replace(pair.rack_gear(drawn.teeth, cut, root, cutter), tip_radius=0.5 * tip)
@@ -301,22 +297,3 @@ def ring_drawing() -> ModuleType:
     from . import ring_drawing
 
     return ring_drawing
-
-
-def _of_rack(pair: Gears, drawn: GearText, figure: str) -> Any:
-    """A figure of the gear's own rack, else of both; None where a profile has precedence, or there is none."""
-    for section in (drawn.rack, pair.rack):
-        if section is not None and (getattr(section, figure) is not None or section.profile is not None):
-            return getattr(section, figure)
-    return None
-
-
-def _protuberance(pair: Gears, own: GearText) -> tuple[float, float]:
-    """Protuberance left beyond the finished flank, mm, and its angle, rad; of the gear's own rack, else of both."""
-
-    def given(figure: str, otherwise: float) -> float:
-        amounts = (getattr(each, figure) for each in (own.rack, pair.rack) if each is not None)
-        return float(next((each for each in amounts if each is not None), otherwise))
-
-    beyond = given("protuberance", 0.0) - given("finishing_stock", 0.0)
-    return beyond, given("protuberance_angle", 0.5 * pair.pressure_angle) if beyond else 0.0

@@ -1,10 +1,16 @@
 """The sections within a gear's section: rack, web, cutter and support."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
 
 from fenics_gears.geometry.gear_data import RACKS, SUPPORTS, Web
 from fenics_gears.inputs.fields import choice, number, quantity, whole_number
 from fenics_gears.inputs.section import Section
+
+if TYPE_CHECKING:
+    from .gear_schema import Gears, GearText
 
 
 def length(example: str, meaning: str, otherwise: str):
@@ -131,3 +137,22 @@ class SupportText(Section):
         meaning="its tangential stiffness per area, over the face along the axis too",
         otherwise="required of a foundation",
     )
+
+
+def of_rack(pair: Gears, drawn: GearText, figure: str) -> Any:
+    """A figure of the gear's own rack, else of both; None where a profile has precedence, or there is none."""
+    for section in (drawn.rack, pair.rack):
+        if section is not None and (getattr(section, figure) is not None or section.profile is not None):
+            return getattr(section, figure)
+    return None
+
+
+def protuberance(pair: Gears, own: GearText) -> tuple[float, float]:
+    """Protuberance left beyond the finished flank, mm, and its angle, rad; of the gear's own rack, else of both."""
+
+    def given(figure: str, otherwise: float) -> float:
+        amounts = (getattr(each, figure) for each in (own.rack, pair.rack) if each is not None)
+        return float(next((each for each in amounts if each is not None), otherwise))
+
+    beyond = given("protuberance", 0.0) - given("finishing_stock", 0.0)
+    return beyond, given("protuberance_angle", 0.5 * pair.pressure_angle) if beyond else 0.0

@@ -40,5 +40,5 @@ def reference_route(
         how = {"cache": cache, "job": job, "report": progress.update}
         gears.append(remeshed_stiffness(gear, material, teeth, division, **how))
     positions = list(zip(*(gear.positions for gear in gears)))
-    mesh = remeshed_mesh(model.pair, nodes, positions, resolution.contact_grid, order, model.drivetrain.indices)
+    mesh = remeshed_mesh(model.pair, nodes, positions, resolution.contact_grid, order)
     return (gears[0], gears[1]), cycle_of(model, mesh)

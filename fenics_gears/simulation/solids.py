@@ -20,12 +20,6 @@ from fenics_gears.system.second_process import SecondProcess, second_process, th
 Solids = tuple[FaceCompliance, FaceCompliance]
 
 
-def solids_of(model: Model, progress: Progress, cache: Cache | None) -> Solids:
-    """Both bodies, at once where there are cores and memory for it."""
-    with begun(model, progress, cache) as solids:
-        return solids()
-
-
 @contextmanager
 def begun(model: Model, progress: Progress, cache: Cache | None) -> Iterator[Callable[[], Solids]]:
     """What gives both bodies. Where there are cores and memory for both at once, a second process begins the wheel's

@@ -18,13 +18,13 @@ from .simulate import result_of, root_stress_of
 NOT_ENDED = "not ended"
 
 
-def unfinished(directory: Path) -> xr.Dataset:
+def unfinished(file: Path) -> xr.Dataset:
     """The result as if the run had been interrupted after the last step of its journal; `complete` 0, `stopped`
     NOT_ENDED. The gears are those of the cache, or condensed again. Raises ComputationError where the journal cannot be
     read."""
     progress = SilentProgress()
     cache = user_cache()
-    recorded = read(directory)
+    recorded = read(file)
     model = model_of(recorded.scene)
     gears, cycle = prepared(model, progress, cache)
     recorder = Recorder(model, cycle, stress=root_stress_of(model, cycle, progress, cache))

@@ -55,21 +55,17 @@ def pages(rows: int, columns: int) -> np.ndarray:
     # Imported here: help does without.
     import numpy as np
 
-    held = mapped(-1, max(8 * rows * columns, 1), flags=mmap.MAP_PRIVATE | mmap.MAP_ANONYMOUS)
+    try:
+        held = mmap.mmap(-1, max(8 * rows * columns, 1), flags=mmap.MAP_PRIVATE | mmap.MAP_ANONYMOUS)
+    except OSError as error:
+        if error.errno != errno.ENOMEM:
+            raise
+        # `mmap` has no error of its own where there is no memory.
+        raise MemoryError from error
     # Pages of megabytes would hold much that is never written. Kernels without them refuse; others have no such call.
     with suppress(OSError, AttributeError):
         held.madvise(mmap.MADV_NOHUGEPAGE)
     return np.frombuffer(held, count=rows * columns).reshape(rows, columns)
-
-
-def mapped(file: int, length: int, **how: int) -> mmap.mmap:
-    """As `mmap.mmap`, which has no error of its own where there is no memory; raises MemoryError there."""
-    try:
-        return mmap.mmap(file, length, **how)
-    except OSError as error:
-        if error.errno != errno.ENOMEM:
-            raise
-        raise MemoryError from error
 
 
 def give_back() -> None:

@@ -5,9 +5,9 @@ import pytest
 from tests.coarse_sector import relative
 
 from fenics_gears import ComputationError
-from fenics_gears.elasticity.cut_chain import chain_is_quicker, chain_response, joined, run_of
+from fenics_gears.elasticity.cut_chain import joined, run_of
 from fenics_gears.elasticity.elements import ELEMENTS
-from fenics_gears.elasticity.ring import condensed_sector, cut_response, fourier_response, ring_compliance
+from fenics_gears.elasticity.ring import condensed_sector, cut_response, ring_compliance
 
 
 def link_of(seed, size=4):
@@ -27,14 +27,13 @@ def ring_inverse(link, teeth):
 
 
 @pytest.mark.parametrize("teeth, reach", [(5, 1), (12, 3), (13, 4), (31, 2), (4, 3), (2, 1)])
-def test_both_routes_are_the_inverse_of_the_whole_ring(teeth, reach):
+def test_it_is_the_inverse_of_the_whole_ring(teeth, reach):
     """Brute force: numpy's inverse; odd and even numbers of sectors, a single one too."""
     link = link_of(teeth)
     exact = ring_inverse(link, teeth)
-    for route in (chain_response, fourier_response):
-        response = route(link, teeth, reach)
-        for offset in range(-reach, reach + 1):
-            assert relative(response(offset) - exact[offset % teeth], exact[0]) < 1e-11
+    response = cut_response(link, teeth, reach)
+    for offset in range(-reach, reach + 1):
+        assert relative(response(offset) - exact[offset % teeth], exact[0]) < 1e-11
 
 
 def test_joining_eliminates_the_common_cut():
@@ -56,31 +55,6 @@ def test_joining_eliminates_the_common_cut():
     for _ in range(4):
         row = joined(row, one)
     assert relative(row - run_of(one, 5), row) < 1e-10
-
-
-def test_a_gear_of_many_teeth_takes_the_chain_and_has_the_same_flanks(pinion, coarse_sector, monkeypatch):
-    """The Fourier transform on the same sector."""
-    from fenics_gears.elasticity import ring
-
-    sector = condensed_sector(coarse_sector("P2"), ELEMENTS["P2"], 0.3)
-    exact = ring_compliance(sector, pinion.teeth, 2)
-    monkeypatch.setattr(ring, "chain_is_quicker", lambda teeth, reach: True)
-    assert relative(ring_compliance(sector, pinion.teeth, 2) - exact, exact) < 1e-10
-
-
-def test_few_teeth_are_transformed_and_many_joined():
-    """The count of operations; a reach all around leaves no run to join."""
-    assert not chain_is_quicker(16, 4) and not chain_is_quicker(60, 4)
-    assert chain_is_quicker(150, 4) and chain_is_quicker(2000, 4)
-    assert not chain_is_quicker(100, 99) and not chain_is_quicker(100, 100)
-    link = link_of(3)
-    assert relative(cut_response(link, 400, 2)(1) - fourier_response(link, 400, 2)(1), link) < 1e-10
-
-
-def test_a_ring_that_nothing_holds_is_refused():
-    """House rule; without stiffness of its own a cut has no response."""
-    with pytest.raises(ComputationError, match="is the hub held"):
-        chain_response(np.zeros((4, 4)), 100, 1)
 
 
 def test_cuts_that_do_not_match_are_refused(pinion, coarse_sector):

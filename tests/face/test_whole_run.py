@@ -15,7 +15,8 @@ from fenics_gears.runs.gear_store import GearStore
 from fenics_gears.scene.data import Accuracy
 from fenics_gears.simulation import bodies, solids
 from fenics_gears.simulation.bodies import gear_bodies
-from fenics_gears.simulation.solids import solid_of, solids_of
+from fenics_gears.simulation.solids import begun as begun_bodies
+from fenics_gears.simulation.solids import solid_of
 from fenics_gears.system import second_process
 from fenics_gears.system.memory import MEMORY_VARIABLE
 from fenics_gears.system.progress import SilentProgress
@@ -66,7 +67,8 @@ def test_both_bodies_at_once_are_those_one_after_the_other(scene, monkeypatch, t
     def both(threads, cache=None):
         for module in (second_process, solids):
             monkeypatch.setattr(module, "threads", lambda: threads)
-        return solids_of(model, SilentProgress(), cache)
+        with begun_bodies(model, SilentProgress(), cache) as bodies:
+            return bodies()
 
     expected, kept = both(1), Cache(tmp_path)
     assert not started

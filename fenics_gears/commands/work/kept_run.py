@@ -6,6 +6,7 @@ import argparse
 import gc
 import sys
 from collections.abc import Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +14,7 @@ from fenics_gears import results
 from fenics_gears.errors import FAILED, ComputationError
 from fenics_gears.model.model import Model
 from fenics_gears.results import validity
-from fenics_gears.results.journal import JournalPlace, is_journal, remove
+from fenics_gears.results.journal import JournalPlace
 from fenics_gears.results.summary import Row, summary_rows, what_is_there
 from fenics_gears.runs.simulate import simulate
 from fenics_gears.show import FACE_PICTURE_FILES, PICTURE_FILES
@@ -39,8 +40,8 @@ def run_and_keep(model: Model, directory: Path, options: argparse.Namespace, job
         except ComputationError as error:
             if getattr(error, "partial", None) is None or not error.partial.sizes["time"]:
                 # Nothing was done that should replace an earlier result in the directory.
-                if is_journal(journal.directory):
-                    said = f"What was done until then is in {journal.directory}; `gears plot {directory}` draws it."
+                if journal.file.is_file():
+                    said = f"What was done until then is in {journal.file}; `gears plot {directory}` draws it."
                     raise ComputationError(f"{error}\n{said}") from error
                 raise
             kept.keep(error.partial)
@@ -108,7 +109,8 @@ class _Kept:
         self._written = _names(dataset)
         directory = self.file.parent
         write_whole(self.file, lambda path: results.save(dataset, path))
-        remove(directory / JOURNAL)
+        with suppress(OSError):
+            (directory / JOURNAL).unlink()
         for picture in (*PICTURE_FILES, *FACE_PICTURE_FILES):
             # Those of an earlier run would be taken for pictures of this one.
             (directory / picture).unlink(missing_ok=True)

@@ -7,7 +7,6 @@ from pathlib import Path
 
 from fenics_gears import results
 from fenics_gears.errors import ComputationError, SceneError
-from fenics_gears.results.journal import is_journal
 from fenics_gears.results.layout import OVERALL
 from fenics_gears.simulation.unfinished import unfinished
 
@@ -35,9 +34,9 @@ def run_file(path: Path) -> Path:
 def run_or_journal(path: Path) -> Path:
     """The file of a run in a directory or, where there is none, the journal of one that has not ended; any other path
     as it is."""
-    if not isdir(path) or path.name == JOURNAL:
+    if not isdir(path):
         return path
-    return path / (JOURNAL if not (path / RUN_FILE).is_file() and is_journal(path / JOURNAL) else RUN_FILE)
+    return path / (JOURNAL if not (path / RUN_FILE).is_file() and (path / JOURNAL).is_file() else RUN_FILE)
 
 
 def loaded_run(file: Path, load: Callable | None = None, trains: bool = False):

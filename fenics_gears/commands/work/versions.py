@@ -7,8 +7,6 @@ from fenics_gears.system.versions import processor, versions
 def print_versions() -> int:
     print(versions().removeprefix("fenics_"), processor(), sep="\n")
     for each in blas.libraries():
-        wrong = "" if each["exact"] else ", WRONG: products of integers are not exact"
-        words = f"kernels for {each['kernels']}, threads {each['threads']}{wrong}"
+        words = f"kernels for {each['kernels']}, threads {each['threads']}"
         print(f"OpenBLAS {each['version']} ({each['file']}): {words}")
-    print(f"kernels: {blas.said()}")
     return 0

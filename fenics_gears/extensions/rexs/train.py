@@ -45,10 +45,6 @@ class Train:
         """What the loads on a gear's side of a stage bring to it; None where that does not follow."""
         return self._shares(gear, stage, set())
 
-    def turn_as_one(self, one: Component, other: Component) -> bool:
-        """Whether two gears are on one shaft, or on shafts that are coupled."""
-        return other.id in {each.id for each in self._turning(one)}
-
     def power(self, gear: Component, stage: Component) -> float | None:
         """Power, by its sign, that comes to a stage from this gear's side; None where that does not follow."""
         shares = self.shares(gear, stage)

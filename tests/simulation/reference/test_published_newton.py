@@ -4,15 +4,15 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from tests.simulation.reference.published_newton import Equations, iterates, merit
+from tests.simulation.reference.published_solver import PublishedSolver
 
 from fenics_gears import model_of
-from fenics_gears.contact.errors import ContactNotConverged
 from fenics_gears.contact.laws import Tolerance
 from fenics_gears.contact.mixed_form import StepEquations
-from fenics_gears.contact.published_newton import Equations, iterates, merit
-from fenics_gears.contact.step_solver import PUBLISHED, cold_start, solve_step
+from fenics_gears.contact.remeshed_mesh import RemeshedGears, paired_nodes
+from fenics_gears.contact.step_solver import cold_start, solve_step
 from fenics_gears.dynamics.march import Marcher
-from fenics_gears.dynamics.stepping import EquationsOfMotion
 from fenics_gears.model.resolution import EVERY_STEP
 from fenics_gears.scene.data import Accuracy
 from fenics_gears.simulation.reference_route import reference_route
@@ -93,8 +93,9 @@ def test_direction_is_newtons(seed):
     assert merit(equations, displacement, forces) == pytest.approx(0.5 * value @ value, rel=1e-12)
 
 
-def test_what_it_cannot_solve_goes_to_the_ladder_and_is_told(paper_cases, reference_cache):
-    """The error lists the published method first, then the ladder."""
+@pytest.mark.parametrize("case", ["static frictionless", "static"])
+def test_a_run_has_the_steps_of_the_program(case, paper_cases, reference_cache):
+    """Other solver: a mesh cycle with every step by the paper's Newton, and by the program's."""
     accuracy = Accuracy(
         element="P2",
         flank_element_size=0.3,
@@ -103,11 +104,16 @@ def test_what_it_cannot_solve_goes_to_the_ladder_and_is_told(paper_cases, refere
         steps_per_mesh_cycle=2,
         condensation=EVERY_STEP,
     )
-    model = model_of(replace(paper_cases["static frictionless"], accuracy=accuracy))
-    cycle = reference_route(model, SilentProgress(), reference_cache)[1]
-    pulled = replace(model.drivetrain, load=-model.drivetrain.load)
-    with pytest.raises(ContactNotConverged, match="no equilibrium") as caught:
-        Marcher(cycle, EquationsOfMotion(pulled, model.time_step)).run(2, 2)
-    attempts = caught.value.attempts
-    assert [name for name, *_ in attempts][:2] == [PUBLISHED, "newton"]
-    assert all(np.all(np.isfinite(history)) for _, _, history, _ in attempts)
+    model = model_of(replace(paper_cases[case], accuracy=accuracy))
+    gears, cycle = reference_route(model, SilentProgress(), reference_cache)
+    grid = model.resolution.contact_grid
+    nodes = paired_nodes(model.pair, model.removal, grid, 2, 2)
+    stiffness = RemeshedGears(model.pair, nodes, list(zip(*(gear.positions for gear in gears)))).stiffness
+    solver = PublishedSolver(model.drivetrain.indices, stiffness)
+    published = reference_route(model, SilentProgress(), reference_cache)[1]
+    published.mesh = replace(published.mesh, solve=solver, traits=replace(published.mesh.traits, own_solver=True))
+    published.traits = published.mesh.traits
+    found, expected = (Marcher(each, model.equations_of_motion).run(2, 3).records for each in (published, cycle))
+    for one, other in zip(found, expected):
+        assert one.solution.forces == pytest.approx(other.solution.forces, abs=1e-6 * other.solution.forces.max())
+        assert one.state.position == pytest.approx(other.state.position, abs=1e-9)

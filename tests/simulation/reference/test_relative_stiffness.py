@@ -5,8 +5,8 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from tests.simulation.reference.relative_stiffness import RelativeStiffness
 
-from fenics_gears.contact.relative_stiffness import RelativeStiffness
 from fenics_gears.dynamics.time_integration import Scheme
 from fenics_gears.model.drivetrain import drivetrain
 from fenics_gears.scene.data import Motion

@@ -51,11 +51,11 @@ def test_published_arms_are_what_remains(paper_cases, both_routes):
     assert published < 0.5 * 1.5 / 34.0
 
 
-def test_published_method_solves_every_step(paper_cases, both_routes):
-    """The paper [B]: no step needs the ladder."""
+def test_newton_solves_every_step(paper_cases, both_routes):
+    """The paper [B], whose method needs nothing else: no step needs a fallback."""
     for case in CASES[:3]:
         reference = both_routes(paper_cases[case])[1]
-        steps = reference.attrs["steps_by_rung: Newton with line search"]
+        steps = reference.attrs["steps_by_rung: newton"]
         assert steps == reference.attrs["steps"]
 
 

@@ -1,19 +1,17 @@
-"""A step solved by the paper's Newton method; by the program's own Newton and its fallbacks where that finds no
-solution."""
+"""A step of `condensation = "every step"` solved by the paper's Newton method, to be held against the program's."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 
 import numpy as np
+from tests.simulation.reference.published_newton import Equations, Iterate, iterates
+from tests.simulation.reference.relative_stiffness import RelativeStiffness
 
-from .laws import OPEN
-from .mixed_form import Iterate as StepIterate
-from .mixed_form import StepEquations
-from .operator import Position
-from .published_newton import Equations, Iterate, iterates
-from .relative_stiffness import RelativeStiffness
-from .step_solver import PUBLISHED, StepSolution, solve_step
+from fenics_gears.contact.laws import OPEN
+from fenics_gears.contact.mixed_form import StepEquations
+from fenics_gears.contact.operator import Position
+from fenics_gears.contact.step_solver import NEWTON, StepSolution
 
 MOST_ITERATIONS = 60
 NO_DIRECTION = "no search direction"
@@ -23,8 +21,7 @@ SMALL = 1e-3
 
 
 class PublishedSolver:
-    """Newton with line search [B] on [24], [25] and [C.1]; what it cannot solve goes to `solve_step`, on the same
-    equations.
+    """Newton with line search [B] on [24], [25] and [C.1].
 
     The equations are reduced to the relative displacement once for each position and effective stiffness.
     """
@@ -38,7 +35,7 @@ class PublishedSolver:
     def __call__(
         self, position: Position, problem: StepEquations, status: np.ndarray, last: StepSolution | None
     ) -> StepSolution:
-        """Solve a step from the last one's solution. Raises ContactNotConverged with the history of every attempt."""
+        """Solve a step from the last one's solution. Raises AssertionError where that finds no solution."""
         reduced = self.reduced(position, problem)
         equations = Equations(
             stiffness=reduced.stiffness,
@@ -49,14 +46,13 @@ class PublishedSolver:
             r=1.0 / np.diag(problem.compliance),
         )
         tried, outcome = _newton(equations, *_start(position, problem, status, last), problem.tolerance.force)
-        if outcome:
-            return solve_step(problem, status, before=(_attempt(reduced, problem, equations, tried, outcome),))
+        assert not outcome, outcome
         final = tried[-1]
         sets = equations.status(final.displacement, final.forces)
         closed = sets != OPEN
         forces = np.where(np.tile(closed, len(final.forces) // len(closed)), final.forces, 0.0)
         coordinates = reduced.coordinates(problem.load, final.displacement)
-        return StepSolution(forces, coordinates, final.displacement, sets, len(tried) - 1, PUBLISHED)
+        return StepSolution(forces, coordinates, final.displacement, sets, len(tried) - 1, NEWTON)
 
     def reduced(self, position: Position, problem: StepEquations) -> RelativeStiffness:
         """The equilibrium equations [C.1] of a position and an effective stiffness."""
@@ -109,17 +105,3 @@ def _newton(equations: Equations, displacement, forces, force_tolerance: float) 
     except np.linalg.LinAlgError:
         pass
     return tried, NO_DIRECTION
-
-
-def _attempt(
-    reduced: RelativeStiffness, problem: StepEquations, equations: Equations, tried: list[Iterate], outcome: str
-):
-    """An attempt as ContactNotConverged lists it: name, outcome, residuals and sets of every iterate."""
-    sets = np.array([equations.status(each.displacement, each.forces) for each in tried], dtype=np.int8)
-    history = [
-        problem.residual(
-            StepIterate(status, each.forces, reduced.coordinates(problem.load, each.displacement), each.displacement)
-        )
-        for status, each in zip(sets, tried)
-    ]
-    return PUBLISHED, outcome, np.array(history), sets

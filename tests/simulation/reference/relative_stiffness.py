@@ -15,9 +15,8 @@ from __future__ import annotations
 import numpy as np
 from scipy.linalg import cho_factor, cho_solve
 
+from fenics_gears.contact.kinematics import COLUMNS
 from fenics_gears.geometry.side import Side
-
-from .kinematics import COLUMNS
 
 # Of the motions of a gear those in the plane: along x and y, and about z.
 IN_PLANE = [0, 1, 5]

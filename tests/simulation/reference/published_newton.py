@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD, STICK
+from fenics_gears.contact.laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD, STICK
 
 BETA, GAMMA, MOST_HALVINGS = 0.9, 0.1, 22
 
