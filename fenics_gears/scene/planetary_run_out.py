@@ -49,7 +49,7 @@ def pitches_of(
 
 def with_pitches(meshes: Sequence[MeshOfScene], pitches: Mapping[str, tuple[float, ...]]) -> list[MeshOfScene]:
     """Meshes with the `[flank_errors]` of their pairs, where those of gears are listed as their first mesh counts
-    teeth."""
+    teeth. All have the section, so that their windows of contact nodes are alike."""
     layout = layout_of(meshes)
     found = []
     for number, mesh in enumerate(meshes):
@@ -58,9 +58,8 @@ def with_pitches(meshes: Sequence[MeshOfScene], pitches: Mapping[str, tuple[floa
             if name in pitches:
                 begins = layout.shared(gear, layout.graph.sides[gear][0][0], number).first
                 errors[side] = GearErrors(pitch=pitches[name], first=begins % len(pitches[name]))
-        if any(each.pitch for each in errors):
-            mesh = replace(mesh, scene=replace(mesh.scene, flank_errors=FlankErrors(pinion=errors[0], wheel=errors[1])))
-        found.append(mesh)
+        own = FlankErrors(pinion=errors[0], wheel=errors[1])
+        found.append(replace(mesh, scene=replace(mesh.scene, flank_errors=own)))
     return found
 
 

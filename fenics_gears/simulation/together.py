@@ -19,6 +19,7 @@ from fenics_gears.model.cost import expected_cost, too_large
 from fenics_gears.model.model import RELIEFS, Model, differ_only
 from fenics_gears.model.row_model import RowModel
 from fenics_gears.model.train import TrainModel
+from fenics_gears.model.train_parts import ERRORS_OF_SETS
 from fenics_gears.results.contact_variables import mesh_variables
 from fenics_gears.results.extrema import repeating_steps
 from fenics_gears.results.planetary import OF_SETS, result_of_set
@@ -94,7 +95,7 @@ def _sets_alike(one: RowModel, other: RowModel) -> bool:
     same = carriers[0] == carriers[1] and (one.steps, one.recorded) == (other.steps, other.recorded)
     return same and np.array_equal(one.drivetrain.stiffness, other.drivetrain.stiffness) and all(
         mine.resolution.contact_grid == its.resolution.contact_grid
-        and differ_only(mine.scene, its.scene, ("load", "eccentricity", "flank_errors"))
+        and differ_only(mine.scene, its.scene, ("load", *ERRORS_OF_SETS))
         for mine, its in zip(one.models, other.models)
     )  # fmt: skip
 
