@@ -47,8 +47,8 @@ class FlankDeviations:
     """Deviations of a gear with z teeth, counted as they mesh: arrays (z,), mm, and the waviness that all share.
 
     ``index``: cumulative pitch deviation, the arc on the reference circle by which a tooth comes late; zero for the
-    last tooth that is listed. ``slope``: excess of material at the tip over the start of active profile. ``form``: in the middle over
-    both ends. ``active_profile``: roll angles (rad) of its ends. ``helix``: None in the plane. ``curves`` (z,
+    last tooth that is listed. ``slope``: excess of material at the tip over the start of active profile. ``form``: in
+    the middle over both ends. ``active_profile``: roll angles (rad) of its ends. ``helix``: None in the plane. ``curves`` (z,
     CURVE_POINTS): measured excess over the active profile, in place of slope and form.
     """
 
