@@ -48,8 +48,8 @@ class FlankDeviations:
 
     ``index``: cumulative pitch deviation, the arc on the reference circle by which a tooth comes late; zero for the
     last tooth that is listed. ``slope``: excess of material at the tip over the start of active profile. ``form``: in
-    the middle over both ends. ``active_profile``: roll angles (rad) of its ends. ``helix``: None in the plane. ``curves`` (z,
-    CURVE_POINTS): measured excess over the active profile, in place of slope and form.
+    the middle over both ends. ``active_profile``: roll angles (rad) of its ends. ``helix``: None in the plane.
+    ``curves`` (z, CURVE_POINTS): measured excess over the active profile, in place of slope and form.
     """
 
     index: np.ndarray

@@ -28,9 +28,8 @@ def quantile_chart(cases: Cases, values: np.ndarray, unit: str, name: str, note:
     firsts = np.arange(len(grouped)) * samples
     fields = [field for field in cases.fields if not _is_random(cases, field)]
     axis = max((field for field in fields if field.numeric), key=lambda field: len(set(field.values)), default=None)
-    said = (
-        f"{note} {samples} samples of {_in_words([each for each in cases.fields if _is_random(cases, each)])}.".strip()
-    )
+    random = _in_words([field for field in cases.fields if _is_random(cases, field)])
+    said = f"{note} {samples} samples of {random}.".strip()
     title = f"{name} ({unit})" if unit else name
     if axis is None or len(grouped) == 1:
         return _shares(cases, fields, grouped, firsts, (name, title, said))

@@ -110,7 +110,7 @@ def sets_solved_together(models: Sequence[TrainModel], kept_row: KeptRow) -> lis
         cycle.build(range(cycle.steps))
         compile_kernels(False)
         bare = cycle.with_gaps_of([None] * len(row.meshes), [lambda own: own.gaps] * len(row.meshes))
-        # With few steps in a mesh cycle, the same step of another set or a mesh cycle before is nearer than the last one.
+        # Of few steps in a mesh cycle the same one of another set, or a mesh cycle before, is nearer than the last one.
         bare.traits = replace(bare.traits, repeats=True)
         at_once = _most_at_once(row, bare)
         found: list[NumbersOfRun | None] = []

@@ -30,8 +30,8 @@ def is_random(written: Any) -> bool:
 
 
 def sampled(path: Path, table: Mapping[str, Any]) -> tuple[Any, ...]:
-    """So many values of a field from a distribution, as TOML has them; of a list each has all entries. From pitch errors
-    the mean of each gear is taken off, so that they close. Raises AxisError.
+    """So many values of a field from a distribution, as TOML has them; of a list each has all entries. From pitch
+    errors the mean of each gear is taken off, so that they close. Raises AxisError.
 
     >>> sampled(("load", "wheel_torque"), {
     ...     "distribution": "uniform", "start": "1 N m", "stop": "2 N m", "count": 2, "seed": 1})
