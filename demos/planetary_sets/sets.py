@@ -8,7 +8,7 @@ from pathlib import Path
 from demos.arguments import output_directory
 
 HERE = Path(__file__).parent
-FINE = 'steps_per_mesh_cycle = 60\nflank_element_size = "0.06 mm"'
+FINE = 'steps_per_mesh_cycle = 60\nflank_element_size = "0.059 mm"'
 QUICK = 'steps_per_mesh_cycle = 36\nflank_element_size = "0.1 mm"'
 # Teeth of sun, planet and ring, by the number of planets; FVA's set has three.
 TEETH = {3: (17, 22, 61), 4: (18, 20, 58)}

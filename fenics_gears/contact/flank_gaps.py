@@ -7,7 +7,7 @@ displacements are averaged over a node's function, so are deviations.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -69,6 +69,23 @@ class FlankGaps:
             for excess in each.measured:
                 gap[each.nodes] -= excess(tooth)
         return gap
+
+    @staticmethod
+    def of_runs(gaps: Sequence[FlankGaps], steps: np.ndarray) -> Callable[[Position, slice], np.ndarray]:
+        """As of `RunOut.of_runs`, of teeth without measured curves."""
+        first = gaps[0]
+        amounts = [np.array([each._amounts[number] for each in gaps]) for number in range(2)]
+        cycles = (steps // first._steps).astype(int)
+
+        def of_position(position: Position, there: slice) -> np.ndarray:
+            found = np.zeros((len(gaps), len(cycles[there]), position.operator.nodes))
+            for each in first._sides(position):
+                teeth = (cycles[there] - each.side.sense * each.tooth) % each.side.gear.tooth_count
+                of_teeth = amounts[each.side.number][:, teeth, : each.shapes.shape[1]]
+                found[..., each.nodes] += of_teeth @ each.shapes.T
+            return found
+
+        return of_position
 
     def _sides_of(self, position: Position) -> list[_OnSide]:
         pairs = position.operator.pairs

@@ -8,7 +8,7 @@ and left out. Likewise flanks move with the tilt of the axis of their teeth.
 
 from __future__ import annotations
 
-from math import cos, sin
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
@@ -35,24 +35,33 @@ class RunOut:
         """The additional gaps (n,), mm, positive when they open."""
         return -self.rows(position) @ self.motion(step)
 
-    def motion(self, step: float) -> np.ndarray:
-        """How both gears' teeth stand beside their axes (13,); `rows` (n, 13) at a position say what that closes."""
-        motion = np.zeros(len(COORDINATES))
+    def motion(self, steps: float | np.ndarray) -> np.ndarray:
+        """How both gears' teeth stand beside their axes at a step (13,) or at many (s, 13); `rows` (n, 13) at a
+        position say what that closes."""
+        motion = np.zeros((*np.shape(steps), len(COORDINATES)))
         for side, offset, width in self._gears:
-            motion[COLUMNS[side.number]] = run_out(side, offset, width, step / self._steps)
+            motion[..., COLUMNS[side.number]] = run_out(side, offset, width, steps / self._steps)
         return motion
 
+    @staticmethod
+    def of_runs(run_outs: Sequence[RunOut], steps: np.ndarray) -> Callable[[Position, slice], np.ndarray]:
+        """The gaps (r, s, n) of runs with these in one mesh, at a position and those of the steps that are there."""
+        motions = np.array([each.motion(steps) for each in run_outs])
+        # Of one mesh all have the same rows.
+        return lambda position, there: -(motions[:, there] @ run_outs[0].rows(position).T)
 
-def run_out(side: Side, offset: Offset, width: float, cycles: float) -> list[float]:
+
+def run_out(side: Side, offset: Offset, width: float, cycles: float | np.ndarray) -> np.ndarray:
     """Displacement, mm, and tilt, mm as arc lengths, of a gear's teeth on its axis after some mesh cycles, in the order
-    of `kinematics.MOTIONS`; `width` (mm): of its face."""
+    of `kinematics.MOTIONS` (..., 6); `width` (mm): of its face."""
     turned = side.turn * cycles
     angle = turned + side.turning * offset.phase
     leaning = turned + side.turning * offset.wobble_phase
     # The axis leans by (cos, sin) towards the right end: it is tilted about (-sin, cos).
     tilt = offset.wobble / width * side.gear.base_radius
-    centre = [offset.distance * cos(angle), offset.distance * sin(angle), 0.0]
-    return [*centre, -tilt * sin(leaning), tilt * cos(leaning), 0.0]
+    none = np.zeros_like(angle)
+    centre = offset.distance * np.cos(angle), offset.distance * np.sin(angle), none
+    return np.stack([*centre, -tilt * np.sin(leaning), tilt * np.cos(leaning), none], axis=-1)
 
 
 def _rows(position: Position) -> np.ndarray:

@@ -47,9 +47,9 @@ class FlankDeviations:
     """Deviations of a gear with z teeth, counted as they mesh: arrays (z,), mm, and the waviness that all share.
 
     ``index``: cumulative pitch deviation, the arc on the reference circle by which a tooth comes late; zero for the
-    last tooth. ``slope``: excess of material at the tip over the start of active profile. ``form``: in the middle over
-    both ends. ``active_profile``: roll angles (rad) of its ends. ``helix``: None in the plane. ``curves`` (z,
-    CURVE_POINTS): measured excess over the active profile, in place of slope and form.
+    last tooth that is listed. ``slope``: excess of material at the tip over the start of active profile. ``form``: in
+    the middle over both ends. ``active_profile``: roll angles (rad) of its ends. ``helix``: None in the plane.
+    ``curves`` (z, CURVE_POINTS): measured excess over the active profile, in place of slope and form.
     """
 
     index: np.ndarray
@@ -119,7 +119,7 @@ def _of_gear(
     index = np.cumsum(pitch - pitch.mean())
     zero = None if own.in_the_mean else v_roll_angle(gear)
     return FlankDeviations(
-        index=index - index[-1],
+        index=np.roll(index - index[-1], -own.first),
         slope=level if measured else values(own.profile_slope, lambda: limits().profile_slope * draws(SLOPE)),
         form=level if measured else values(own.profile_form, lambda: limits().profile_form * draws(FORM)),
         waviness=own.waviness,

@@ -24,11 +24,12 @@ REPLACED = {"profile_curves": ("profile_slope", "profile_form"), "helix_curves":
 TABLES = ("file", *CURVES)
 
 
-def _deviations(example: str, meaning: str, over_face: bool = False):
+def _deviations(example: str, meaning: str, over_face: bool = False, closed: bool = False):
     drawn = "random values within `tolerance_class`; without a class, zero"
     otherwise = f"{drawn}; not allowed in a plane scene" if over_face else drawn
     limits = "-100 mm to 100 mm"
-    return quantities(limits, example, meaning=meaning, otherwise=otherwise, small=True, over_face=over_face)
+    marks = {"over_face": over_face, "closed": closed}
+    return quantities(limits, example, meaning=meaning, otherwise=otherwise, small=True, **marks)
 
 
 @dataclass(frozen=True)
@@ -87,7 +88,7 @@ class GearErrors(Section):
     )
 
     pitch: tuple[float, ...] | None = _deviations(
-        "3.5 um", "single pitch deviations, positive where the pitch is too long; their sum must be zero"
+        "3.5 um", "single pitch deviations, positive where the pitch is too long; their sum must be zero", closed=True
     )
     profile_slope: tuple[float, ...] | None = _deviations(
         "4 um", "profile slope deviations, positive with material in excess towards the tip"
@@ -131,6 +132,9 @@ class GearErrors(Section):
         otherwise=f'"{REFERENCE_POINT}"',
     )
     waviness: Waviness | None = None
+    # Of a gear with several mates, whose pitches are listed as another mesh counts its teeth: which of them is the
+    # first one here.
+    first: int = 0
     # Read from the tables: the columns of `file`, whose values are in the fields of these names, and the measured
     # curves. `problem`: the field that names a wrong table, and what is wrong.
     columns: tuple[str, ...] = ()

@@ -40,6 +40,12 @@ class SharedGear:
         """Whether its meshes load opposite flanks."""
         return self.sides[0] != self.sides[1]
 
+    @property
+    def first(self) -> int:
+        """Number of the tooth of pair 0 of the second mesh, as those of the first mesh number their teeth: in the order
+        in which they mesh."""
+        return self.tooth if self.sides[0] else -self.tooth
+
     def flank(self, mesh: int, flank: tuple[int, int]) -> tuple[int, int]:
         """A flank as the first mesh counts teeth and flanks, from how the first (0) or the second (1) counts them."""
         tooth, side = flank

@@ -86,11 +86,12 @@ class AllowedNumber(Allowed):
 @dataclass(frozen=True, kw_only=True)
 class AllowedList(Allowed):
     """A list of ``shortest`` to ``longest`` quantities of one kind, or bare numbers, each within the bounds; a refusal
-    names the first wrong entry.
+    names the first wrong entry. ``closed``: they sum to zero, as pitch errors do around a gear.
     """
 
     longest: int = 1000
     shortest: int = 1
+    closed: bool = False
 
     def convert(self, value: Any) -> tuple[float, ...]:
         if not isinstance(value, list):

@@ -5,6 +5,8 @@ from __future__ import annotations
 from math import pi
 from pathlib import Path
 
+import numpy as np
+
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.geometry.planetary import RING, SUN, PlanetarySet
 from fenics_gears.scene.carrier import Carrier
@@ -132,4 +134,9 @@ def planet_rows(row: RowModel) -> list[Row]:
         said = f"{1e3 * each.distance:.4g} um, at {180.0 / pi * each.phase:.4g} deg as the run begins"
         rows.append((f"run-out of {each.gear.removeprefix(f'{carrier.stage}.')}", said, ""))
     stiffness = "rigid" if carrier.pin_stiffness is None else f"{carrier.pin_stiffness:.4g}"
+    for gear, pitches in carrier.pitches:
+        single = 1e3 * max(map(abs, pitches))
+        total = 1e3 * np.ptp(np.cumsum(pitches))
+        said = f"{single:.4g} um at most, {total:.4g} um in all around the gear"
+        rows.append((f"pitch errors of {gear.removeprefix(f'{carrier.stage}.')}", said, ""))
     return [*rows, ("pins", stiffness, "" if carrier.pin_stiffness is None else "N/mm")]

@@ -22,7 +22,7 @@ from fenics_gears.scene.train_mesh import MeshOfScene, gear_names, layout_of
 from fenics_gears.scene.train_shafts import TrainShafts
 
 from .drivetrain import lumped_gears, support_of
-from .model import Model, model_of
+from .model import Model, differ_only, model_of
 from .shared_gears import check_shared
 
 if TYPE_CHECKING:
@@ -174,12 +174,19 @@ def check_supports(meshes: Sequence[MeshOfScene]) -> None:
             )
 
 
+# Run-out and pitches of a set: its models but for their gaps are those without.
+ERRORS_OF_SETS = ("eccentricity", "flank_errors")
+
+
 def model_of_mesh(mesh: MeshOfScene, scene: Scene, known: list[tuple[Scene, Model]]) -> Model:
-    """As `model_of`, of a mesh with such a scene, from those `known` where the meshes of other planets have the same;
-    what is wrong with shafts is said with their names in the train."""
+    """As `model_of`, of a mesh with such a scene, from those `known` where the meshes of other planets have the same or
+    differ in their errors alone; what is wrong with shafts is said with their names in the train."""
     found = next((model for other, model in known if other == scene), None)
     if found is not None:
         return found
+    found = next((model for other, model in known if mesh.of_set and differ_only(other, scene, ERRORS_OF_SETS)), None)
+    if found is not None:
+        return replace(found, scene=scene)
     try:
         found = model_of(scene)
         known.append((scene, found))

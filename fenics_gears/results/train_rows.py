@@ -70,7 +70,7 @@ def _set_rows(found: xr.Dataset) -> Rows:
     members = [str(each) for each in found[MEMBER].values]
     for place, member in enumerate(members):
         torque = 1e-3 * float(found["member_torque"][:-1, place].mean())
-        rows.append((f"torque on the {member} from outside, mean", f"{torque:.6g}", "N m"))
+        rows.append((f"torque through the {member}, mean", f"{torque:.6g}", "N m"))
     for member in attrs.get("floating", "").split():
         place = members.index(member)
         radius = np.hypot(found["member_x"][:, place], found["member_y"][:, place])

@@ -35,7 +35,8 @@ class Carrier:
     each planet tangential, against its force, and radial, outwards, mm; none where pins are in their places. `file`:
     stiffness of the carrier between its pins, None where it is rigid; `bearing_stiffness`, N/mm: None where its centre
     is held.
-    `run_outs`: of gears whose base circles are off their axes.
+    `run_outs`: of gears whose base circles are off their axes. `pitches`: by the name of a gear the deviations of its
+    pitches, mm, in the order in which its teeth mesh.
     `floating`: members that no bearing holds. `speed`, rad/s, and `torque`, N mm: of the input. `vibration`: lumped
     members, None where the scene has none; `in_time`: whether it runs with them, else they are for natural frequencies
     alone."""
@@ -46,6 +47,7 @@ class Carrier:
     pin_errors: tuple[tuple[float, float], ...] = ()
     floating: tuple[str, ...] = ()
     run_outs: tuple[RunOut, ...] = ()
+    pitches: tuple[tuple[str, tuple[float, ...]], ...] = ()
     speed: float | None = None
     torque: float = 0.0
     vibration: VibrationText | None = None

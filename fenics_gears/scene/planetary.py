@@ -24,7 +24,7 @@ from .gear_schema import Gears
 from .planetary_assembly import check_centres, check_clear, set_of
 from .planetary_in_time import INERTIA, check_in_time, inertia_and_damping, wrong_in_time
 from .planetary_rules import OF_A_SET_ALONE, OF_THE_TRAIN, text_of_set, wrong_sections
-from .planetary_run_out import run_outs_of, with_run_outs
+from .planetary_run_out import pitches_of, run_outs_of, with_pitches, with_run_outs
 from .planetary_schema import OF_THE_FACE, OF_THE_STEP, PlanetaryText, gears_in, meshes_in
 from .train_loads import TrainLoad, TrainMotion
 from .train_mesh import MeshOfScene, gear_names, layout_of
@@ -151,7 +151,10 @@ def _carrier(stage: str, text: PlanetaryText, own: PlanetarySet, place: str, fol
         file = None if pins.stiffness is None else located(pins.stiffness, folder)
         _check_file(file, own, f"{place}.carrier.stiffness")
         carrier = replace(carrier, file=file, bearing_stiffness=pins.bearing_stiffness)
-    return replace(carrier, run_outs=run_outs_of(text.eccentricity, carrier.sun, carrier.planets, carrier.ring))
+    gears = carrier.sun, carrier.planets, carrier.ring
+    return replace(
+        carrier, run_outs=run_outs_of(text.eccentricity, *gears), pitches=pitches_of(text.pitch_errors, *gears)
+    )
 
 
 def _check_file(file: HousingFile | None, own: PlanetarySet, field: str) -> None:
@@ -239,7 +242,9 @@ def _meshes(
                 ahead=(phase.numerator, phase.denominator),
             )  # fmt: skip
     known = [found[number] for number in sorted(found)]
-    return with_run_outs(known, carrier.run_outs) if carrier.run_outs else known
+    if carrier.run_outs:
+        known = with_run_outs(known, carrier.run_outs)
+    return with_pitches(known, dict(carrier.pitches)) if carrier.pitches else known
 
 
 def _clocked(meshes: list[MeshOfScene], carrier: Carrier, angle: float) -> list[MeshOfScene]:

@@ -5,8 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
+import numpy as np
+
+from fenics_gears.effects.flank_errors_rules import PITCH_ROUNDING, not_closed
 from fenics_gears.geometry.planetary import CARRIER, RING, SECOND_SUN, SUN
-from fenics_gears.inputs.problem import Problem, did_you_mean
+from fenics_gears.inputs.problem import NOTHING_DONE, Problem, did_you_mean
 from fenics_gears.inputs.section import names_in, read_by_itself
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.inputs.written import as_written
@@ -41,6 +44,7 @@ NOT_HERE = {
     "wheel": "is of a pair. A set has the gears sun, planet and ring.",
     "backlash": "would thin the teeth of the planet differently in its meshes. Allowed: profile_shift of each gear.",
     "pinion_hand": "is of a pair. Allowed: sun_hand.",
+    "flank_errors": "is of a pair. Of a set pitch errors alone are computed. Allowed: pitch_errors.",
     **dict.fromkeys(OF_A_MESH, f"is of one mesh: write it in [stages.NAME.{SUN_MESH}] or [stages.NAME.{RING_MESH}]."),
     **{name: f"is of the whole train: write it as [{name}]." for name in ("friction", "accuracy")},
 }  # fmt: skip
@@ -105,6 +109,7 @@ def text_of_set(stage: str, content: Tree) -> tuple[PlanetaryText | None, list[P
     problems += _wrong_steps(path, content)
     if text is not None:
         problems += _wrong_members(path, text, (SUN, second_in(content), CARRIER))
+        problems += _wrong_pitches((*path, "pitch_errors"), text, content)
         if text.sun_hand is not None and "helix_angle" not in content:
             said = "has no meaning without helix_angle. Leave it out, or give helix_angle."
             problems.append(Problem((*path, "sun_hand"), f'"{text.sun_hand}"', said))
@@ -224,6 +229,28 @@ def _wrong_run_outs(path: tuple[str, ...], text: PlanetaryText, count: int) -> I
         if listed is not None and len(listed) != count:
             said = f"has {len(listed)} entries for {count} planets. Allowed: one for each."
             yield Problem((*path, "planets", name), "a list", said)
+
+
+def _wrong_pitches(path: tuple[str, ...], text: PlanetaryText, content: Tree) -> Iterator[Problem]:
+    """Pitch errors of more or fewer teeth than gears have, or that do not close around one."""
+    own = text.pitch_errors
+    count = text.planets or len(text.planet_angles or ())
+    of_gears = (SUN, content.get(SUN), 1), ("planets", content.get("planet"), count), (RING, content.get(RING), 1)
+    for name, gear, gears in of_gears:
+        pitches = getattr(own, name) if own is not None else None
+        teeth = gear.get("teeth") if isinstance(gear, Mapping) else 0
+        if pitches is None or not isinstance(teeth, int):
+            continue
+        if not teeth:
+            yield Problem((*path, name), "a list", f"is of a gear that this set has not. {NOTHING_DONE}")
+        elif len(pitches) != gears * abs(teeth):
+            said = f"has {len(pitches)} entries for {gears} x {abs(teeth)} teeth. Allowed: one for each."
+            yield Problem((*path, name), "a list", said)
+        else:
+            totals = np.array(pitches).reshape(gears, -1).sum(axis=1)
+            worst = max(totals.tolist(), key=abs)
+            if abs(worst) > PITCH_ROUNDING * abs(teeth):
+                yield Problem((*path, name), "a list", not_closed(worst))
 
 
 def _wrong_vibration(path: tuple[str, ...], text: PlanetaryText) -> Iterator[Problem]:

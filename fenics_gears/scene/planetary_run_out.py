@@ -1,4 +1,5 @@
-"""Gears of several meshes that run out, in a planetary set or another train, as the pairs of these have it.
+"""Gears of several meshes that run out, or whose pitches differ, in a planetary set or another train, as the pairs of
+these have it.
 
 In the frame of the carrier each gear turns at its own rate about a centre that stands still, and takes its run-out
 along. Each of its meshes sees the same displacement from its own line of action.
@@ -6,7 +7,7 @@ along. Each of its meshes sees the same displacement from its own line of action
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from math import atan2, cos, sin
 
@@ -14,10 +15,11 @@ import numpy as np
 
 from fenics_gears.contact.eccentricity import Eccentricity, Offset
 from fenics_gears.errors import SceneError
+from fenics_gears.geometry.flank_errors import FlankErrors, GearErrors
 from fenics_gears.inputs.problem import NOTHING_DONE
 
 from .carrier import RunOut
-from .planetary_schema import RunOutsOfSet
+from .planetary_schema import PitchErrorsOfSet, RunOutsOfSet
 from .train_mesh import MeshOfScene, layout_of
 
 
@@ -32,6 +34,33 @@ def run_outs_of(own: RunOutsOfSet | None, sun: str, planets: Sequence[str], ring
         each_planet = zip(planets, own.planets.distance, phases)
         found += [RunOut(name, float(distance), float(phase)) for name, distance, phase in each_planet]
     return tuple(each for each in found if each.distance)
+
+
+def pitches_of(
+    own: PitchErrorsOfSet | None, sun: str, planets: Sequence[str], ring: str
+) -> tuple[tuple[str, tuple[float, ...]], ...]:
+    """Deviations of the pitches of the gears with these names; none of those whose pitches are alike."""
+    if own is None:
+        return ()
+    of_planets = np.array(own.planets or (0.0,) * len(planets)).reshape(len(planets), -1).tolist()
+    every = (sun, own.sun), (ring, own.ring), *zip(planets, map(tuple, of_planets))
+    return tuple((name, pitches) for name, pitches in every if pitches is not None and any(pitches))
+
+
+def with_pitches(meshes: Sequence[MeshOfScene], pitches: Mapping[str, tuple[float, ...]]) -> list[MeshOfScene]:
+    """Meshes with the `[flank_errors]` of their pairs, where those of gears are listed as their first mesh counts
+    teeth. All have the section, so that their windows of contact nodes are alike."""
+    layout = layout_of(meshes)
+    found = []
+    for number, mesh in enumerate(meshes):
+        errors = [GearErrors(), GearErrors()]
+        for side, (gear, name) in enumerate(zip(layout.graph.gears[number], mesh.gears)):
+            if name in pitches:
+                begins = layout.shared(gear, layout.graph.sides[gear][0][0], number).first
+                errors[side] = GearErrors(pitch=pitches[name], first=begins % len(pitches[name]))
+        own = FlankErrors(pinion=errors[0], wheel=errors[1])
+        found.append(replace(mesh, scene=replace(mesh.scene, flank_errors=own)))
+    return found
 
 
 def with_run_outs(meshes: Sequence[MeshOfScene], run_outs: Sequence[RunOut]) -> list[MeshOfScene]:

@@ -144,6 +144,23 @@ class RunOutsOfSet(Section):
     ring: RunOutOfMember | None = None
 
 
+def _pitches(of: str, more: str = "") -> Any:
+    meaning = (
+        f"single pitch deviations of {of}, positive where the pitch is too long; they sum to zero around a gear. Teeth"
+        f" are counted as in [the flank errors](#flank_errors) of a pair, from the one that meshes first{more}"
+    )
+    return quantities("-10 mm to 10 mm", "3 um", "-3 um", meaning=meaning, otherwise="none", closed=True)
+
+
+@dataclass(frozen=True, kw_only=True)
+class PitchErrorsOfSet(Section):
+    """``[stages.NAME.pitch_errors]``: deviations of each pitch of the gears of a set."""
+
+    sun: tuple[float, ...] | None = _pitches("the sun", " with planet 1")
+    planets: tuple[float, ...] | None = _pitches("the planets, one after the other", " with the sun")
+    ring: tuple[float, ...] | None = _pitches("the ring", " with planet 1")
+
+
 SUPPORTS = "0 N/mm to 1e15 N/mm"
 
 
@@ -245,4 +262,5 @@ class PlanetaryText(Section):
     )
     carrier: CarrierText | None = None
     eccentricity: RunOutsOfSet | None = None
+    pitch_errors: PitchErrorsOfSet | None = None
     vibration: VibrationText | None = None

@@ -75,7 +75,7 @@ class SweptField:
         words = self.words(case)
         if words in (PRESENT, ABSENT):
             return f"{'with' if words == PRESENT else 'without'} {self.called}"
-        return f"{self.called} {words} {self.unit}".rstrip()
+        return f"{self.called} {words} {self.unit if self.numeric else ''}".rstrip()
 
 
 @dataclass(frozen=True)

@@ -28,7 +28,7 @@ def quantile_chart(cases: Cases, values: np.ndarray, unit: str, name: str, note:
     firsts = np.arange(len(grouped)) * samples
     fields = [field for field in cases.fields if not _is_random(cases, field)]
     axis = max((field for field in fields if field.numeric), key=lambda field: len(set(field.values)), default=None)
-    random = ", ".join(field.called for field in cases.fields if _is_random(cases, field))
+    random = _in_words([field for field in cases.fields if _is_random(cases, field)])
     said = f"{note} {samples} samples of {random}.".strip()
     title = f"{name} ({unit})" if unit else name
     if axis is None or len(grouped) == 1:
@@ -64,6 +64,14 @@ def _shares(
     if len(grouped) > len(curves):
         note += f" {len(curves)} of {len(grouped)} combinations are drawn."
     return Chart(f"{name}, distribution", curves, title, "share of samples below", note, HEIGHT)
+
+
+def _in_words(fields: list[SweptField]) -> str:
+    """Fields with their units, without the name of the stage where all are of one."""
+    parts = [field.path.split(".") for field in fields]
+    stages = {each[1] if each[0] == "stages" else "" for each in parts}
+    one = f"{stages.pop()} " if len(stages) == 1 else ""
+    return ", ".join(field.title.removeprefix(one) for field in fields)
 
 
 def _is_random(cases: Cases, field: SweptField) -> bool:

@@ -12,7 +12,6 @@ from fenics_gears.contact.gaps_of_rows import GapsOfRows
 from fenics_gears.contact.mesh_cycle import Cycle, Gaps
 from fenics_gears.contact.relief_gaps import Profiles
 from fenics_gears.contact.row import RowCycle
-from fenics_gears.contact.run_out import RunOut
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.effects import ALONG_THE_FACE, common_period, effects_on
 from fenics_gears.elasticity.cache import user_cache
@@ -20,6 +19,7 @@ from fenics_gears.model.cost import expected_cost, too_large
 from fenics_gears.model.model import RELIEFS, Model, differ_only
 from fenics_gears.model.row_model import RowModel
 from fenics_gears.model.train import TrainModel
+from fenics_gears.model.train_parts import ERRORS_OF_SETS
 from fenics_gears.results.contact_variables import mesh_variables
 from fenics_gears.results.extrema import repeating_steps
 from fenics_gears.results.planetary import OF_SETS, result_of_set
@@ -43,7 +43,7 @@ def can_be_solved_together(model: Model | TrainModel, asked: Collection[str]) ->
         by_itself = len(model.rows) == 1 and row.shafts.carrier is not None and set(asked) == OF_SETS
         steady = row.drivetrain.mass is None and row.models[0].scene.friction is None
         deviations = (each for own in row.models for each in deviations_of(own))
-        return by_itself and steady and not row.over_face and all(isinstance(each, RunOut) for each in deviations)
+        return by_itself and steady and not row.over_face and all(hasattr(each, "of_runs") for each in deviations)
     scene = model.scene
     drivetrain = model.drivetrain
     teeth_alike = reliefs_apart(model) and common_period(scene) == 1
@@ -58,7 +58,7 @@ def can_be_solved_together(model: Model | TrainModel, asked: Collection[str]) ->
 
 def alike(one: Model | TrainModel, other: Model | TrainModel) -> bool:
     """Whether the runs of two models with the same contact operators differ in nothing but load, reliefs and
-    what opens the flanks along the face; of sets in load, places of pins and run-out."""
+    what opens the flanks along the face; of sets in load, places of pins, run-out and pitches."""
     if not (isinstance(one, Model) and isinstance(other, Model)):
         return isinstance(one, TrainModel) and isinstance(other, TrainModel) and _sets_alike(one.rows[0], other.rows[0])
     return one.scene is other.scene or differ_only(one.scene, other.scene, ("load", *RELIEFS, *ALONG_THE_FACE))
@@ -89,13 +89,13 @@ def solved_together(
 
 def _sets_alike(one: RowModel, other: RowModel) -> bool:
     carriers = [
-        None if each is None else replace(each, pin_errors=(), run_outs=(), torque=0.0)
+        None if each is None else replace(each, pin_errors=(), run_outs=(), pitches=(), torque=0.0)
         for each in (one.shafts.carrier, other.shafts.carrier)
     ]
     same = carriers[0] == carriers[1] and (one.steps, one.recorded) == (other.steps, other.recorded)
     return same and np.array_equal(one.drivetrain.stiffness, other.drivetrain.stiffness) and all(
         mine.resolution.contact_grid == its.resolution.contact_grid
-        and differ_only(mine.scene, its.scene, ("load", "eccentricity"))
+        and differ_only(mine.scene, its.scene, ("load", *ERRORS_OF_SETS))
         for mine, its in zip(one.models, other.models)
     )  # fmt: skip
 
@@ -110,6 +110,8 @@ def sets_solved_together(models: Sequence[TrainModel], kept_row: KeptRow) -> lis
         cycle.build(range(cycle.steps))
         compile_kernels(False)
         bare = cycle.with_gaps_of([None] * len(row.meshes), [lambda own: own.gaps] * len(row.meshes))
+        # Of few steps in a mesh cycle the same one of another set, or a mesh cycle before, is nearer than the last one.
+        bare.traits = replace(bare.traits, repeats=True)
         at_once = _most_at_once(row, bare)
         found: list[NumbersOfRun | None] = []
         for first in range(0, len(rows) if at_once else 0, max(at_once, 1)):
@@ -121,15 +123,11 @@ def sets_solved_together(models: Sequence[TrainModel], kept_row: KeptRow) -> lis
 
 
 def _gaps_of(rows: Sequence[RowModel], bare: RowCycle) -> GapsOfRows:
-    """What opens the flanks of each run: pins beside their places, and gears that run out."""
+    """What opens the flanks of each run: pins beside their places, gears that run out, errors of pitches."""
     offsets = [np.array(of_mesh) for of_mesh in zip(*([offset for _, offset in row.placed] for row in rows))]
-    run_outs = [[_run_outs_of(model) for model in row.models] for row in rows]
-    repeats = bare.steps if not any(map(any, run_outs)) else rows[0].steps + 1
-    return GapsOfRows(bare, offsets, run_outs, repeats)
-
-
-def _run_outs_of(model: Model) -> tuple[RunOut, ...]:
-    return tuple(each for each in deviations_of(model) if isinstance(each, RunOut))
+    deviations = [[deviations_of(model) for model in row.models] for row in rows]
+    repeats = bare.steps if not any(map(any, deviations)) else rows[0].steps + 1
+    return GapsOfRows(bare, offsets, deviations, repeats)
 
 
 def _numbers_of_sets(rows: Sequence[RowModel], cycle: RowCycle, opened: GapsOfRows) -> list[NumbersOfRun | None]:

@@ -65,7 +65,9 @@ def label(value: Any) -> str:
 
 
 def unit_of(values: tuple[Any, ...]) -> str:
-    return next((units.unit_of(value) for value in values if isinstance(value, str) and units.unit_of(value)), "")
+    """Of the first of some values that has one; of a list, that of its entries."""
+    listed = (each for value in values for each in (value if isinstance(value, list) else (value,)))
+    return next((units.unit_of(each) for each in listed if isinstance(each, str) and units.unit_of(each)), "")
 
 
 def values_of(path: Path, written: Any) -> tuple[Any, ...]:

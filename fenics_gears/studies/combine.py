@@ -125,7 +125,7 @@ def load_combined(path: Path) -> xr.Dataset:
 def _coordinate(axis: Axis, study: Study) -> tuple[str, tuple]:
     values = axis.coordinate()
     attributes = {"long_name": axis.dotted}
-    if values.dtype != object:
+    if values.dtype != object or axis.unit:
         attributes["units"] = axis.unit or "1"
     return axis.name, (study.dimension(axis), values, attributes)
 

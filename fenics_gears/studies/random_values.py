@@ -18,7 +18,7 @@ DISTRIBUTIONS = {"normal": ("mean", "deviation"), "uniform": ("start", "stop")}
 OTHERS = ("distribution", "count", "seed", "entries")
 ALLOWED = (
     'Allowed: such as { distribution = "normal", mean = "0 um", deviation = "10 um", count = 1000, seed = 1 }, or'
-    ' "uniform" with start and stop; entries = 3 of a field that is a list'
+    ' "uniform" with start and stop; entries = 3 of a field that is a list, [3, 22] of pitches of three gears'
 )
 MOST_ENTRIES = 1000
 MOST_SEED = 2**63 - 1
@@ -30,8 +30,8 @@ def is_random(written: Any) -> bool:
 
 
 def sampled(path: Path, table: Mapping[str, Any]) -> tuple[Any, ...]:
-    """So many values of a field from a distribution, as TOML has them; of a list each has all entries. Raises
-    AxisError.
+    """So many values of a field from a distribution, as TOML has them; of a list each has all entries. From pitch
+    errors the mean of each gear is taken off, so that they close. Raises AxisError.
 
     >>> sampled(("load", "wheel_torque"), {
     ...     "distribution": "uniform", "start": "1 N m", "stop": "2 N m", "count": 2, "seed": 1})
@@ -58,15 +58,29 @@ def sampled(path: Path, table: Mapping[str, Any]) -> tuple[Any, ...]:
         raise AxisError("has a start that is not below its stop.")
     count = _whole(table, "count", 2, MOST_VALUES)
     seed = _whole(table, "seed", 0, MOST_SEED)
-    listed = isinstance(allowed_at(path)[0], AllowedList)
+    allowed = allowed_at(path)[0]
+    listed = isinstance(allowed, AllowedList)
     if not listed and "entries" in table:
         raise AxisError("has entries, but the field is no list. Leave them out.")
-    entries = _whole(table, "entries", 1, MOST_ENTRIES) if listed else 1
+    closed = isinstance(allowed, AllowedList) and allowed.closed
+    shape = _entries(table, closed) if listed else (1,)
     # Fields of one seed are independent of each other.
     source = np.random.default_rng([seed, *".".join(path).encode()])
     draw = source.normal if kind == "normal" else source.uniform
-    values = [[_written(number, unit) for number in row] for row in draw(first, second, (count, entries)).tolist()]
+    drawn = draw(first, second, (count, *shape))
+    if closed:
+        drawn -= drawn.mean(axis=-1, keepdims=True)
+    values = [[_written(number, unit) for number in row] for row in drawn.reshape(count, -1).tolist()]
     return tuple(row if listed else row[0] for row in values)
+
+
+def _entries(table: Mapping[str, Any], closed: bool) -> tuple[int, ...]:
+    """How many entries a list has, of pitch errors perhaps those of several gears. Raises AxisError."""
+    written = table.get("entries")
+    if not (closed and isinstance(written, list) and len(written) == 2):
+        return (_whole(table, "entries", 1, MOST_ENTRIES),)
+    gears, teeth = (_whole({"entries": each}, "entries", 1, MOST_ENTRIES) for each in written)
+    return gears, _whole({"entries": gears * teeth}, "entries", 1, MOST_ENTRIES) // gears
 
 
 def _whole(table: Mapping[str, Any], name: str, lowest: int, highest: int) -> int:

@@ -39,6 +39,14 @@ def test_samples_have_their_distribution():
     assert kstest(numbers(sampled(PINS, uniform)).ravel(), "uniform", (-5.0, 15.0)).pvalue > 0.01
 
 
+def test_pitches_of_each_gear_close():
+    """They sum to zero around each gear, and else are as they were drawn: so many times less one the variance."""
+    path = ("stages", "set", "pitch_errors", "planets")
+    found = numbers(sampled(path, NORMAL | {"entries": [3, 22]})).reshape(-1, 3, 22)
+    assert np.abs(found.sum(axis=-1)).max() < 1e-8
+    assert (found**2).mean() == pytest.approx(100.0 * 21 / 22, rel=0.01)
+
+
 def test_samples_are_those_of_their_seed():
     """The same again with the same seed, others with another one or of another field."""
     first = numbers(sampled(PINS, NORMAL))

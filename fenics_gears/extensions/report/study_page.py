@@ -87,7 +87,7 @@ def _summary(cases: Cases) -> PageSection:
     for field in cases.fields:
         values = list(dict.fromkeys(field.words(case) for case in range(cases.count)))
         shown = ", ".join(values) if len(values) <= 8 else f"{', '.join(values[:3])}, … {values[-1]}"
-        rows.append((field.called, f"{shown} {field.unit}".strip(), ""))
+        rows.append((field.called, f"{shown} {field.unit if field.numeric else ''}".strip(), ""))
     return PageSection("summary", "Summary", [Tiles(tiles), Facts(rows, "Swept fields")])
 
 

@@ -218,7 +218,7 @@ def _members(dataset: xr.Dataset, train: TrainScene) -> PageSection:
     of_speed = ("Speed (rpm)", "Power (kW)") if train.speed_given else ()
     headings = ("Member", "Part", "Torque (N m)", "Turns in one of the input", *of_speed)
     blocks: list[Block] = [
-        Table(headings, _member_rows(train, dataset), "Members, mean torques from outside", numbers=2)
+        Table(headings, _member_rows(train, dataset), "Members, mean torques through them", numbers=2)
     ]
     return PageSection("power", "Power flow", [*blocks, *planet_shares(train, dataset), *orbits(train, dataset)])
 
