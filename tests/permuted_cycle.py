@@ -26,8 +26,7 @@ def in_other_order(cycle, seed: int):
         nodes, coordinates = random.permutation(len(problem.gap)), random.permutation(len(problem.load))
         rows = np.concatenate([nodes, len(nodes) + nodes])[: len(problem.compliance)]
         form_rows(problem.rows, np.arange(len(nodes)))
-        shuffled = replace(
-            problem,
+        shuffled = problem._replace(
             rows=0,
             stiffness=np.ascontiguousarray(problem.stiffness[np.ix_(coordinates, coordinates)]),
             load=problem.load[coordinates],

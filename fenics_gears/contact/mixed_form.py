@@ -21,7 +21,7 @@ from numba import carray, cfunc, njit, types
 
 from .addresses import call, form_rows, not_inlined, solver_of, to_number
 from .compliance_product import subtract_displaced
-from .laws import OPEN, RESIDUAL_NAMES, SLIP_BACKWARD, SLIP_FORWARD, STICK, Tolerance, measure
+from .laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD, STICK, Tolerance
 
 SMALL_SYSTEM = 40  # unknowns up to which elimination in compiled code is faster than LAPACK
 LEAST_PIVOT = 1e-2  # of forces, in parts of the first one: below it larger ones are looked for
@@ -49,12 +49,6 @@ class StepEquations(NamedTuple):
     free_motion: np.ndarray
     tolerance: Tolerance
     rows: int = 0
-
-    def residual(self, iterate: Iterate) -> np.ndarray:
-        """By how much (5,) an iterate violates the laws and equilibrium (`laws.measure`)."""
-        row = np.zeros(len(RESIDUAL_NAMES))
-        measure(row, self, iterate)
-        return row
 
 
 class Iterate(NamedTuple):

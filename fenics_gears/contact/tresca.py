@@ -24,7 +24,7 @@ import numpy as np
 from scipy.linalg import qr
 from scipy.optimize import nnls
 
-from .laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD, STICK
+from .laws import OPEN, RESIDUAL_NAMES, SLIP_BACKWARD, SLIP_FORWARD, STICK, measure
 from .mixed_form import Iterate
 from .newton import CONVERGED, CYCLED, SINGULAR
 
@@ -92,7 +92,8 @@ def tresca(problem, status: np.ndarray, polish: Callable):
             outcome = SINGULAR if work.seconds <= MOST_SECONDS else CYCLED
             break
         displacement = problem.jacobian @ frozen.coordinates - problem.compliance @ frozen.forces
-        history.append(problem.residual(Iterate(frozen.sets, frozen.forces, frozen.coordinates, displacement)))
+        history.append(np.zeros(len(RESIDUAL_NAMES)))
+        measure(history[-1], problem, Iterate(frozen.sets, frozen.forces, frozen.coordinates, displacement))
         sets.append(frozen.sets)
         key = frozen.sets.tobytes()
         if np.array_equal(frozen.sets, before) and key not in tried:

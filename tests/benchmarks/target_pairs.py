@@ -70,9 +70,14 @@ def pairs(paper: Scene) -> dict[str, Scene]:
     }
 
 
-def random_pairs(dynamic: Scene, count: int) -> dict[str, Scene]:
+def held_out(paper: Scene, seed: int) -> dict[str, Scene]:
+    """Random pairs of another seed, by which no factor was chosen."""
+    return random_pairs(replace(paper, accuracy=Accuracy(), motion=Motion(200.0, SETTLING, 1)), 26, seed)
+
+
+def random_pairs(dynamic: Scene, count: int, seed: int = 2026) -> dict[str, Scene]:
     """Pairs at random; those that vibrate have the paper's inertia and damping."""
-    random, found = np.random.default_rng(2026), {}
+    random, found = np.random.default_rng(seed), {}
     while len(found) < count:
         pinion = int(random.integers(14, 41))
         teeth = pinion, int(random.integers(pinion, 91))
