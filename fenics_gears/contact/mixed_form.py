@@ -29,9 +29,8 @@ WEAK_FRICTION = 0.25  # coefficient up to which the compliance's diagonal serves
 
 
 class StepEquations(NamedTuple):
-    """The equations of a step, in the mixed form: `stiffness` K (k, k) and `load` F (k,) of the effective drivetrain;
-    `compliance` C (m, m), `jacobian` G (m, k) and `gap` (n,) of the contact; `slip_before` (n,): w_old, empty without
-    friction.
+    """The equations of a step: `stiffness` K (k, k), `load` F (k,) of the effective drivetrain; `compliance` C (m, m),
+    `jacobian` G (m, k), `gap` (n,) of the contact; `slip_before` (n,): w_old, empty without friction.
 
     `rows`: address of what forms the rows of nodes that are closed for the first time (`contact.formed_rows`), 0 where
     all are there. `free_motion` (f k,): how the load moves the drivetrain where only the contact of each of f meshes
