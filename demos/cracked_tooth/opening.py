@@ -13,13 +13,13 @@ from scipy import sparse
 from scipy.spatial import cKDTree
 
 from demos.cracked_tooth.depths import CRACKED_TOOTH, DEPTHS, HERE
+from fenics_gears.geometry.in_mesh import rotation
 from fenics_gears import load_scene
 from fenics_gears.elasticity import dolfinx_adapter as adapter
 from fenics_gears.elasticity.condensation import by_radius
 from fenics_gears.elasticity.element_sizes import ElementSizes, element_sizes
 from fenics_gears.elasticity.elements import ELEMENTS
 from fenics_gears.elasticity.mumps import Factor
-from fenics_gears.elasticity.ring import rotation
 from fenics_gears.elasticity.condensation import dofs_of
 from fenics_gears.elasticity.stiffness import displacement_space, nodes_at, stiffness_matrix
 from fenics_gears.geometry.gear import Gear

@@ -8,11 +8,11 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Circle, Polygon
 
 from demos.internal_gears.planet_in_ring import words_of
+from fenics_gears.geometry.in_mesh import upright
 from fenics_gears import gear_pair
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.show.panels import DARK, PALETTE, styled
 from fenics_gears.show.pair_drawing import FILLS, gear_outline
-from fenics_gears.show.stress_grid import upright
 
 
 @styled

@@ -12,10 +12,11 @@ from dataclasses import replace
 import numpy as np
 from scipy import sparse
 
+from fenics_gears.geometry.in_mesh import rotation
+
 from . import dolfinx_adapter as adapter
 from .element_nodes import ElementNodes, dofs_of
 from .face.layers import Sweep, shapes
-from .ring import rotation
 
 # Of the reference triangle and square: corners counter-clockwise, middles of sides, middle, as in ElementNodes.
 REFERENCE = {

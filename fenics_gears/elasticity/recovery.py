@@ -14,6 +14,7 @@ from scipy.sparse import identity, kron
 
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.gear_data import Material
+from fenics_gears.geometry.in_mesh import rotation
 
 from .element_sizes import Discretisation
 from .elements import element_named
@@ -21,7 +22,7 @@ from .face.computed import swept_section
 from .face.cut_motions import cut_motions, loads_over_motions, over_motions
 from .face.discretisation import FaceDiscretisation
 from .nodal_stress import NodalStress
-from .ring import cyclic, cyclic_motion, ring_work, rotation
+from .ring import cyclic, cyclic_motion, ring_work
 from .sector import Sector, plane_sector, swept_sector
 from .sector_mesh import sector_mesh
 from .spanned import spanned

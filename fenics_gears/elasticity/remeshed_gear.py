@@ -12,12 +12,13 @@ from scipy.linalg import block_diag
 
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.gear_data import Material
+from fenics_gears.geometry.in_mesh import rotation
 from fenics_gears.geometry.involute import canonical_point
 
 from .cut_chain import closed_ring, eliminated, run_of
 from .element_sizes import ElementSizes
 from .elements import Element
-from .ring import centre_motion, condensed_sector, rotation, sector_cuts
+from .ring import centre_motion, condensed_sector, sector_cuts
 from .sector_boundary import flank_through
 from .sector_mesh import sector_mesh
 

@@ -12,6 +12,7 @@ from scipy.linalg import block_diag, cho_solve, get_lapack_funcs
 from scipy.linalg.blas import ztrsm
 
 from fenics_gears.errors import ComputationError
+from fenics_gears.geometry.in_mesh import rotation
 
 from .condensation import CondensedBody, by_radius, condense, held_nodes, line_of
 from .elements import Element
@@ -196,13 +197,6 @@ def centre_motion(points: np.ndarray) -> np.ndarray:
     motion[:, 0, 2] = -points[:, 1]
     motion[:, 1, 2] = points[:, 0]
     return motion.reshape(-1, 3)
-
-
-def rotation(angle: float, components: int = 2) -> np.ndarray:
-    """Counter-clockwise rotation (2, 2) by an angle (rad); with three components (3, 3), about z."""
-    turn = np.eye(components)
-    turn[:2, :2] = [[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]]
-    return turn
 
 
 def turned_nodes(teeth: int, nodes: int) -> np.ndarray:

@@ -6,11 +6,10 @@ import numpy as np
 import xarray as xr
 
 from fenics_gears.contact.window import coast_roll_angles
+from fenics_gears.geometry.in_mesh import upright
 from fenics_gears.geometry.involute import flank_point
 from fenics_gears.results.pairs import contact_times
 from fenics_gears.simulation.run_stresses import GearsInMesh
-
-from .stress_grid import upright
 
 FEWEST_NODES = 4
 

@@ -4,16 +4,14 @@ from math import degrees
 
 import numpy as np
 
-from fenics_gears.elasticity.ring import rotation
 from fenics_gears.geometry.characteristics import contact_by_fewest
 from fenics_gears.geometry.gear import Gear
+from fenics_gears.geometry.in_mesh import common_depth, extent_of, rotation, standing, upright
 from fenics_gears.geometry.outline import tip_corner, tooth_outline
 from fenics_gears.geometry.pair import GearPair
-from fenics_gears.simulation.run_stresses import standing
 
 from .chart import MARKERS, Chart, Curve
 from .panels import DARK, GREY, PALETTE
-from .stress_grid import common_depth, extent_of, upright
 
 FILLET_POINTS = 9
 INVOLUTE_POINTS = 14

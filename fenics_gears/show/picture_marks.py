@@ -7,10 +7,10 @@ from matplotlib.axes import Axes
 from matplotlib.patches import Arc, FancyArrowPatch, Rectangle
 from matplotlib.patheffects import withStroke
 
+from fenics_gears.geometry.in_mesh import upright
 from fenics_gears.simulation.run_stresses import GearsInMesh
 
 from .panels import DARK
-from .stress_grid import upright
 
 # Radii, points: of a bore that a gear's name fits into with its arrow, and of that arrow.
 LEAST_BORE = 28.0

@@ -8,9 +8,8 @@ from pathlib import Path
 
 import numpy as np
 
-from fenics_gears.elasticity.ring import rotation
 from fenics_gears.errors import ComputationError
-from fenics_gears.geometry.pair import GearPair
+from fenics_gears.geometry.in_mesh import common_depth, extent_of, upright
 from fenics_gears.simulation.run_stresses import GearInSpace, GearsInMesh
 
 # VTK's numbers of cell types, by the number of their nodes; where the nodes of its wedge of second order in section and
@@ -24,14 +23,6 @@ PLANE_STRESSES = {"xx": (0, 0), "yy": (1, 1), "xy": (0, 1), "zz": (2, 2)}
 STRESSES = PLANE_STRESSES | {"yz": (1, 2), "xz": (0, 2)}
 # Mesh cycles: whole ones may be written a little less.
 ROUNDING = 1e-9
-MIRROR = np.array([-1.0, 1.0])
-
-
-def upright(pair: GearPair, points: np.ndarray, coast: bool = False) -> np.ndarray:
-    """Points or vectors (..., 2) in the frame of the line of action as the picture has them, the line of centres
-    upright. coast: of the coast flanks' line of action, its mirror image at the line of centres."""
-    shown = np.asarray(points) @ rotation(-pair.operating_pressure_angle).T
-    return shown * MIRROR if coast else shown
 
 
 def in_plane(values: np.ndarray) -> np.ndarray:
@@ -83,15 +74,6 @@ def whole_view(mesh: GearsInMesh) -> View:
     return View(0.5 * (low + high), 0.52 * (high - low))
 
 
-def extent_of(pair: GearPair) -> tuple[tuple[float, float], tuple[float, float]]:
-    """Ends (mm) of both gears across and along the line of centres, the pinion's centre being 0."""
-    if pair.wheel.internal:
-        outer = -pair.wheel.bore_radius
-        return (-outer, outer), (-pair.centre_distance - outer, -pair.centre_distance + outer)
-    tips = pair.pinion.tip_radius, pair.wheel.tip_radius
-    return (-max(tips), max(tips)), (-pair.centre_distance - tips[1], tips[0])
-
-
 def teeth_view(mesh: GearsInMesh, coast: bool) -> View:
     """The teeth along the path of contact of drive or coast flanks, their roots included."""
     pair = mesh.pair
@@ -99,11 +81,6 @@ def teeth_view(mesh: GearsInMesh, coast: bool) -> View:
     centre = upright(pair, np.array([middle, -pair.pinion.base_radius]), coast)
     depth = common_depth(pair) + 4.0 * pair.pinion.module
     return View(centre, np.array([0.75 * (pair.path_end - pair.path_start), 0.5 * depth]))
-
-
-def common_depth(pair: GearPair) -> float:
-    """How far (mm) the tip circles reach into one another."""
-    return pair.pinion.tip_radius + pair.wheel.tip_radius - pair.centre_distance
 
 
 def fitted(view: View, width: float, height: float) -> View:

@@ -11,10 +11,10 @@ from fenics_gears.effects import effects_on
 from fenics_gears.elasticity.cache import user_cache
 from fenics_gears.elasticity.element_nodes import ElementNodes
 from fenics_gears.elasticity.recovery import GearRecovery, gear_recovery
-from fenics_gears.elasticity.ring import rotation
 from fenics_gears.elasticity.sector import Sector
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.gear import Gear
+from fenics_gears.geometry.in_mesh import rotation, standing
 from fenics_gears.geometry.outline import tooth_outline
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.model.model import Model, model_of
@@ -229,17 +229,6 @@ def recovery_of(model: Model, gear: int) -> GearRecovery:
     data = model.pair.gears[gear]
     material = model.scene.gears.materials[gear]
     return gear_recovery(data, material, discretisation_of(model, gear), model.scene.coast_flanks is not None)
-
-
-def standing(pair: GearPair, gear: int, phase: float) -> tuple[np.ndarray, np.ndarray]:
-    """Centre (2,), mm, and angles (teeth,), rad, of a gear's sectors in the frame of the line of action, at a phase of
-    the mesh cycle. Sector 0 has the tooth of pair 0, which reached the start of contact last."""
-    side = pair.sides[gear]
-    own = side.gear
-    contact = pair.path_start + phase * pair.base_pitch
-    centre = np.array([side.foot, side.sense * own.base_radius - pair.base_radii[0]])
-    first = 0.5 * np.pi * (1 - side.sense) + side.arm(contact) / own.base_radius
-    return centre, first + own.angular_pitch * np.arange(own.tooth_count)
 
 
 def hub_motion(result: xr.Dataset, index: int) -> np.ndarray:

@@ -9,7 +9,7 @@ from fenics_gears.contact.node_to_node import NodeResponse, node_pairs, node_to_
 from fenics_gears.contact.operator import Passage
 from fenics_gears.contact.tooth_pair import drive_place
 from fenics_gears.contact.window import ContactGrid
-from fenics_gears.elasticity.ring import rotation
+from fenics_gears.geometry.in_mesh import rotation
 from fenics_gears.geometry.involute import canonical_point
 
 GRID = ContactGrid(1.5, 16)

@@ -12,8 +12,8 @@ from fenics_gears.elasticity.condensation import by_radius, condense
 from fenics_gears.elasticity.element_sizes import Discretisation
 from fenics_gears.elasticity.elements import element_named
 from fenics_gears.elasticity.gear_compliance import flank_compliance
-from fenics_gears.elasticity.ring import rotation
 from fenics_gears.elasticity.sector_mesh import sector_mesh
+from fenics_gears.geometry.in_mesh import rotation
 from fenics_gears.geometry.outline import centreline_angle
 
 STEEL = Material(206e3, 0.3)

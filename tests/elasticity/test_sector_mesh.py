@@ -14,9 +14,9 @@ from fenics_gears.elasticity.element_nodes import node_roll_angles
 from fenics_gears.elasticity.element_sizes import ElementSizes, element_sizes
 from fenics_gears.elasticity.elements import ELEMENTS
 from fenics_gears.elasticity.mesh_data import corner_areas, oriented
-from fenics_gears.elasticity.ring import rotation
 from fenics_gears.elasticity.sector_boundary import sector_boundary
 from fenics_gears.elasticity.sector_mesh import filled, sector_mesh
+from fenics_gears.geometry.in_mesh import rotation
 from fenics_gears.geometry.involute import arc_length, canonical_point
 
 

@@ -11,8 +11,9 @@ from tests.whole_gear import whole_gear_mesh
 from fenics_gears.elasticity import dolfinx_adapter as adapter
 from fenics_gears.elasticity.condensation import by_radius
 from fenics_gears.elasticity.elements import ELEMENTS
-from fenics_gears.elasticity.ring import ring_compliance, rotation
+from fenics_gears.elasticity.ring import ring_compliance
 from fenics_gears.elasticity.stiffness import assembled, displacement_space, nodes_at, stiffness_matrix
+from fenics_gears.geometry.in_mesh import rotation
 
 
 @lru_cache

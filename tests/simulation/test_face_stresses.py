@@ -6,12 +6,12 @@ from scipy.spatial import cKDTree
 from tests.over_face import helical_run, ring_run
 
 from fenics_gears.contact.tooth_pair import DRIVE
-from fenics_gears.elasticity.ring import rotation
+from fenics_gears.geometry.in_mesh import rotation, standing
 from fenics_gears.show.flank_pressure import STAND_OFF, pressed_tiles
 from fenics_gears.show.run import scene_of
 from fenics_gears.show.stress_grid import save_vtu
 from fenics_gears.show.stress_picture import colour_limit
-from fenics_gears.simulation.run_stresses import RunStresses, standing
+from fenics_gears.simulation.run_stresses import RunStresses
 from fenics_gears.simulation.stored_forces import stored_forces
 
 STEP = 5

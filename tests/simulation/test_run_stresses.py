@@ -21,12 +21,13 @@ from fenics_gears.elasticity.element_sizes import Discretisation
 from fenics_gears.elasticity.fillet_points import POINTS, fillet_curve, fillet_rows
 from fenics_gears.elasticity.recovery import gear_recovery
 from fenics_gears.elasticity.root_stress import root_stress_rows
+from fenics_gears.geometry.in_mesh import upright
 from fenics_gears.geometry.involute import arc_length
 from fenics_gears.results.settled import settled_steps
 from fenics_gears.scene.data import Output
 from fenics_gears.show.drawn_scale import overlap
 from fenics_gears.show.loaded_contact import loaded_contact
-from fenics_gears.show.stress_grid import in_plane, upright
+from fenics_gears.show.stress_grid import in_plane
 from fenics_gears.simulation.dynamic_factor import quasi_static as without_inertia
 from fenics_gears.simulation.run_stresses import RunStresses, hub_motion
 from fenics_gears.simulation.stored_forces import stored_forces, stored_index

@@ -7,12 +7,14 @@ from time import perf_counter
 
 import numpy as np
 
+from fenics_gears.geometry.in_mesh import rotation
+
 from ..condensation import by_radius, line_of
 from ..element_nodes import dofs_of
 from ..mesh_data import BodyMesh
 from ..mirrored_ring import flank_free
 from ..mumps import schur_complement
-from ..ring import check_congruent, joined_blocks, rotation
+from ..ring import check_congruent, joined_blocks
 from .coarse_cuts import cut_nodes, narrow_sweep, on_cut_nodes, root_pitch
 from .cut_motions import cut_motions, loads_on_flanks, over_motions
 from .layers import Sweep, SweptWeb, swept_nodes

@@ -15,11 +15,11 @@ import ufl
 from scipy import sparse
 
 from fenics_gears.elasticity import dolfinx_adapter as adapter
+from fenics_gears.geometry.in_mesh import rotation
 
 from ..element_nodes import ElementNodes, dofs_of, element_nodes, numbers_at
 from ..elements import ELEMENTS
 from ..mesh_data import BodyMesh
-from ..ring import rotation
 from ..stiffness import assembled, nodes_at, stress_of_strain
 from .layers import POINTS, WEIGHTS, Sweep, SweptWeb, shapes
 

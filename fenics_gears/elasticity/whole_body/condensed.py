@@ -15,6 +15,7 @@ from scipy import sparse
 
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.gear_data import Material
+from fenics_gears.geometry.in_mesh import rotation
 from fenics_gears.numbers_version import NUMBERS_VERSION
 
 from ..cache import Cache, kept
@@ -23,7 +24,7 @@ from ..element_nodes import dofs_of, node_roll_angles
 from ..elements import Element, element_named
 from ..mesh_data import BodyMesh
 from ..mumps import Factor
-from ..ring import definite_inverse, rotation
+from ..ring import definite_inverse
 from .compliance import WholeBodyCompliance
 from .parts import DividedBody, Part, divided_body
 

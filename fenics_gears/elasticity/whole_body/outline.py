@@ -13,11 +13,11 @@ from scipy.spatial import cKDTree
 
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.gear import Gear
+from fenics_gears.geometry.in_mesh import rotation
 from fenics_gears.geometry.involute import arc_length, involute_function
 from fenics_gears.geometry.outline import centreline_angle
 
 from ..mesh_data import BodyMesh, boundary_sides, joined_cells
-from ..ring import rotation
 
 # How far points of bore, tips and flanks may lie off the gear data, in modules; gaps are computed from true involutes.
 OUTLINE_TOLERANCE = 2e-3

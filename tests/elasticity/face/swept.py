@@ -12,8 +12,8 @@ from fenics_gears.elasticity.element_sizes import ElementSizes
 from fenics_gears.elasticity.face.layers import Sweep, swept_nodes
 from fenics_gears.elasticity.face.swept_stiffness import SectionForms, swept_stiffness
 from fenics_gears.elasticity.mumps import Factor
-from fenics_gears.elasticity.ring import rotation
 from fenics_gears.elasticity.sector_mesh import sector_mesh
+from fenics_gears.geometry.in_mesh import rotation
 
 # In modules: as few elements as a sector takes.
 GEAR = PINION.of_module_one

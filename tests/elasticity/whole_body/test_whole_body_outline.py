@@ -12,8 +12,8 @@ from fenics_gears import SceneError
 from fenics_gears.elasticity.body_mesh_file import read_body_mesh, write_body_mesh
 from fenics_gears.elasticity.gmsh_session import start
 from fenics_gears.elasticity.mesh_data import BodyMesh
-from fenics_gears.elasticity.ring import rotation
 from fenics_gears.elasticity.whole_body.outline import OUTLINE_TOLERANCE, whole_body
+from fenics_gears.geometry.in_mesh import rotation
 from meshes.root_crack import joined_sectors
 
 
