@@ -116,8 +116,9 @@ def wrong_with_seat(scene: Any, pair: Any, elastic: ElasticShaft, shaft: str) ->
     if gear.web is not None and seat.integral:
         web = f"gears.{seat.gear}.web"
         yield f'{named}: {web} stands between teeth and shaft; leave one out, or seat = "{RIGID_SEAT}"'
-    if abs(elastic.torque_at - seat.at) < 0.5 * seat.width - ROUND_OFF:
-        yield f"{named}: torque_at = {elastic.torque_at:g} mm is within the face; move the coupling out of it"
+    if abs(elastic.torque_at - seat.at) < 0.5 * seat.width + ROUND_OFF:
+        where = f"torque_at = {elastic.torque_at:g} mm is within the face or at its end"
+        yield f"{named}: {where}; move the coupling out of it"
 
 
 def _is_a_cylinder(own: Any, seat: SeatedGear, bore: float, named: str) -> Iterator[str]:

@@ -72,6 +72,7 @@ PLACED = '[bearings.places]\npinion = ["-40 mm", "60 mm"]\n'
             "bore changes under the pinion's face",
         ),
         (PRESSED.replace('torque_at = "0 mm"', 'torque_at = "110 mm"'), "torque_at = 110 mm is within the face"),
+        (CUT.replace('torque_at = "0 mm"', 'torque_at = "102 mm"'), "torque_at = 102 mm is within the face or at its"),
         (ROLLING.replace("number = 9,", ""), "bearings.pinion.* has no rolling.number at place 1"),
         (ROLLING.replace("number = 9,", "number = 2,"), "pinion = a list.*number = 2 at place 1.*to 500[^:]*$"),
         (ROLLING.replace("number = 9,", "number = 90,"), "place 1, has 90 balls .* do not fit on a pitch_diameter"),
