@@ -8,7 +8,7 @@ from fenics_gears.elasticity.condensation import by_radius, condense
 from fenics_gears.elasticity.element_nodes import node_roll_angles
 from fenics_gears.elasticity.elements import element_named
 from fenics_gears.elasticity.mesh_data import BodyMesh
-from fenics_gears.geometry.in_mesh import rotation
+from fenics_gears.geometry.outline import rotation
 from meshes.root_crack import joined_sectors
 
 

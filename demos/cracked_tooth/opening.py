@@ -13,7 +13,7 @@ from scipy import sparse
 from scipy.spatial import cKDTree
 
 from demos.cracked_tooth.depths import CRACKED_TOOTH, DEPTHS, HERE
-from fenics_gears.geometry.in_mesh import rotation
+from fenics_gears.geometry.outline import rotation
 from fenics_gears import load_scene
 from fenics_gears.elasticity import dolfinx_adapter as adapter
 from fenics_gears.elasticity.condensation import by_radius

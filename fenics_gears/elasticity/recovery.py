@@ -14,7 +14,7 @@ from scipy.sparse import identity, kron
 
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.gear_data import Material
-from fenics_gears.geometry.in_mesh import rotation
+from fenics_gears.geometry.outline import rotation
 
 from .element_sizes import Discretisation
 from .elements import element_named

@@ -12,8 +12,8 @@ from scipy.linalg import block_diag
 
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.gear_data import Material
-from fenics_gears.geometry.in_mesh import rotation
 from fenics_gears.geometry.involute import canonical_point
+from fenics_gears.geometry.outline import rotation
 
 from .cut_chain import closed_ring, eliminated, run_of
 from .element_sizes import ElementSizes

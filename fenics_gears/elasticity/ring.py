@@ -12,7 +12,7 @@ from scipy.linalg import block_diag, cho_solve, get_lapack_funcs
 from scipy.linalg.blas import ztrsm
 
 from fenics_gears.errors import ComputationError
-from fenics_gears.geometry.in_mesh import rotation
+from fenics_gears.geometry.outline import rotation
 
 from .condensation import CondensedBody, by_radius, condense, held_nodes, line_of
 from .elements import Element

@@ -3,16 +3,10 @@ upright, the pinion above."""
 
 import numpy as np
 
+from .outline import rotation
 from .pair import GearPair
 
 MIRROR = np.array([-1.0, 1.0])
-
-
-def rotation(angle: float, components: int = 2) -> np.ndarray:
-    """Counter-clockwise rotation (2, 2) by an angle (rad); with three components (3, 3), about z."""
-    turn = np.eye(components)
-    turn[:2, :2] = [[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]]
-    return turn
 
 
 def standing(pair: GearPair, gear: int, phase: float) -> tuple[np.ndarray, np.ndarray]:

@@ -256,3 +256,10 @@ def halved(reached, low: float, high: float) -> float:
     while low < (middle := 0.5 * (low + high)) < high:
         low, high = (low, middle) if reached(middle) else (middle, high)
     return high
+
+
+def rotation(angle: float, components: int = 2) -> np.ndarray:
+    """Counter-clockwise rotation (2, 2) by an angle (rad); with three components (3, 3), about z."""
+    turn = np.eye(components)
+    turn[:2, :2] = [[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]]
+    return turn

@@ -9,8 +9,7 @@ import numpy as np
 
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.gear import Gear
-from fenics_gears.geometry.in_mesh import rotation
-from fenics_gears.geometry.outline import centreline_angle
+from fenics_gears.geometry.outline import centreline_angle, rotation
 from fenics_gears.geometry.planetary import CARRIER
 from fenics_gears.scene.train import TrainScene
 from fenics_gears.scene.train_layout import centres

@@ -6,8 +6,8 @@ import numpy as np
 
 from fenics_gears.geometry.characteristics import contact_by_fewest
 from fenics_gears.geometry.gear import Gear
-from fenics_gears.geometry.in_mesh import common_depth, extent_of, rotation, standing, upright
-from fenics_gears.geometry.outline import tip_corner, tooth_outline
+from fenics_gears.geometry.in_mesh import common_depth, extent_of, standing, upright
+from fenics_gears.geometry.outline import rotation, tip_corner, tooth_outline
 from fenics_gears.geometry.pair import GearPair
 
 from .chart import MARKERS, Chart, Curve

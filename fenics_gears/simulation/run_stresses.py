@@ -14,8 +14,8 @@ from fenics_gears.elasticity.recovery import GearRecovery, gear_recovery
 from fenics_gears.elasticity.sector import Sector
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.gear import Gear
-from fenics_gears.geometry.in_mesh import rotation, standing
-from fenics_gears.geometry.outline import tooth_outline
+from fenics_gears.geometry.in_mesh import standing
+from fenics_gears.geometry.outline import rotation, tooth_outline
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.model.model import Model, model_of
 from fenics_gears.model.resolution import ONCE

@@ -9,8 +9,8 @@ from fenics_gears.contact.node_to_node import NodeResponse, node_pairs, node_to_
 from fenics_gears.contact.operator import Passage
 from fenics_gears.contact.tooth_pair import drive_place
 from fenics_gears.contact.window import ContactGrid
-from fenics_gears.geometry.in_mesh import rotation
 from fenics_gears.geometry.involute import canonical_point
+from fenics_gears.geometry.outline import rotation
 
 GRID = ContactGrid(1.5, 16)
 NO_REMOVAL = (None, None)

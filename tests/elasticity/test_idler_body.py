@@ -13,8 +13,7 @@ from fenics_gears.elasticity.element_sizes import Discretisation
 from fenics_gears.elasticity.elements import element_named
 from fenics_gears.elasticity.gear_compliance import flank_compliance
 from fenics_gears.elasticity.sector_mesh import sector_mesh
-from fenics_gears.geometry.in_mesh import rotation
-from fenics_gears.geometry.outline import centreline_angle
+from fenics_gears.geometry.outline import centreline_angle, rotation
 
 STEEL = Material(206e3, 0.3)
 COARSE = Discretisation("P2", 0.8, 2.0)

@@ -19,7 +19,7 @@ from fenics_gears.elasticity.mesh_data import BodyMesh, oriented
 from fenics_gears.elasticity.recovery import gear_recovery
 from fenics_gears.elasticity.ring import condensed_sector, ring_compliance
 from fenics_gears.elasticity.sector_mesh import sector_mesh
-from fenics_gears.geometry.in_mesh import rotation
+from fenics_gears.geometry.outline import rotation
 
 STEEL = Material(206e3, 0.3)
 COARSE = Discretisation("P2", 0.5, 2.5)

@@ -17,8 +17,8 @@ from fenics_gears.elasticity.recovery import GearRecovery, gear_recovery
 from fenics_gears.elasticity.sector import plane_sector
 from fenics_gears.elasticity.sector_mesh import sector_mesh
 from fenics_gears.elasticity.stiffness import assembled, displacement_space, nodes_at, stiffness_matrix
-from fenics_gears.geometry.in_mesh import rotation
 from fenics_gears.geometry.involute import arc_length, canonical_normal, canonical_point, roll_angle_at_arc_length
+from fenics_gears.geometry.outline import rotation
 
 # The identities hold on any mesh.
 COARSE = {name: Discretisation(name, 0.9, 3.0) for name in ELEMENTS}

@@ -13,8 +13,8 @@ from fenics_gears.elasticity.remeshed_gear import LoadedTooth, RemeshedGear
 from fenics_gears.elasticity.ring import centre_motion
 from fenics_gears.elasticity.sector_boundary import flank_through
 from fenics_gears.elasticity.sector_mesh import sector_mesh
-from fenics_gears.geometry.in_mesh import rotation
 from fenics_gears.geometry.involute import arc_length
+from fenics_gears.geometry.outline import rotation
 from meshes.root_crack import joined_sectors
 
 ANGLE = 0.37

@@ -16,8 +16,8 @@ from fenics_gears.elasticity.elements import ELEMENTS
 from fenics_gears.elasticity.mesh_data import corner_areas, oriented
 from fenics_gears.elasticity.sector_boundary import sector_boundary
 from fenics_gears.elasticity.sector_mesh import filled, sector_mesh
-from fenics_gears.geometry.in_mesh import rotation
 from fenics_gears.geometry.involute import arc_length, canonical_point
+from fenics_gears.geometry.outline import rotation
 
 
 def standard_gear(teeth, module, shift, bore_share):

@@ -25,7 +25,7 @@ from fenics_gears.elasticity.element_nodes import dofs_of
 from fenics_gears.elasticity.face.condensed import ring_blocks
 from fenics_gears.elasticity.face.layers import Sweep, swept_nodes
 from fenics_gears.elasticity.face.swept_stiffness import ELEMENT, SectionForms, swept_stiffness
-from fenics_gears.geometry.in_mesh import rotation
+from fenics_gears.geometry.outline import rotation
 from fenics_gears.model.resolution import hertz_half_width, plane_contact_modulus
 from fenics_gears.results.pairs import in_middle_slice
 

@@ -13,7 +13,7 @@ from fenics_gears.elasticity.condensation import by_radius
 from fenics_gears.elasticity.elements import ELEMENTS
 from fenics_gears.elasticity.ring import ring_compliance
 from fenics_gears.elasticity.stiffness import assembled, displacement_space, nodes_at, stiffness_matrix
-from fenics_gears.geometry.in_mesh import rotation
+from fenics_gears.geometry.outline import rotation
 
 
 @lru_cache

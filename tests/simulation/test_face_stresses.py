@@ -6,7 +6,8 @@ from scipy.spatial import cKDTree
 from tests.over_face import helical_run, ring_run
 
 from fenics_gears.contact.tooth_pair import DRIVE
-from fenics_gears.geometry.in_mesh import rotation, standing
+from fenics_gears.geometry.in_mesh import standing
+from fenics_gears.geometry.outline import rotation
 from fenics_gears.show.flank_pressure import STAND_OFF, pressed_tiles
 from fenics_gears.show.run import scene_of
 from fenics_gears.show.stress_grid import save_vtu

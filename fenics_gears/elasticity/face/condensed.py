@@ -7,7 +7,7 @@ from time import perf_counter
 
 import numpy as np
 
-from fenics_gears.geometry.in_mesh import rotation
+from fenics_gears.geometry.outline import rotation
 
 from ..condensation import by_radius, line_of
 from ..element_nodes import dofs_of

@@ -15,7 +15,7 @@ import ufl
 from scipy import sparse
 
 from fenics_gears.elasticity import dolfinx_adapter as adapter
-from fenics_gears.geometry.in_mesh import rotation
+from fenics_gears.geometry.outline import rotation
 
 from ..element_nodes import ElementNodes, dofs_of, element_nodes, numbers_at
 from ..elements import ELEMENTS

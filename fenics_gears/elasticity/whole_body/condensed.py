@@ -15,7 +15,7 @@ from scipy import sparse
 
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.gear_data import Material
-from fenics_gears.geometry.in_mesh import rotation
+from fenics_gears.geometry.outline import rotation
 from fenics_gears.numbers_version import NUMBERS_VERSION
 
 from ..cache import Cache, kept

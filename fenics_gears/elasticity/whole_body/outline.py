@@ -13,9 +13,8 @@ from scipy.spatial import cKDTree
 
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.gear import Gear
-from fenics_gears.geometry.in_mesh import rotation
 from fenics_gears.geometry.involute import arc_length, involute_function
-from fenics_gears.geometry.outline import centreline_angle
+from fenics_gears.geometry.outline import centreline_angle, rotation
 
 from ..mesh_data import BodyMesh, boundary_sides, joined_cells
 

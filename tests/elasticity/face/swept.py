@@ -13,7 +13,7 @@ from fenics_gears.elasticity.face.layers import Sweep, swept_nodes
 from fenics_gears.elasticity.face.swept_stiffness import SectionForms, swept_stiffness
 from fenics_gears.elasticity.mumps import Factor
 from fenics_gears.elasticity.sector_mesh import sector_mesh
-from fenics_gears.geometry.in_mesh import rotation
+from fenics_gears.geometry.outline import rotation
 
 # In modules: as few elements as a sector takes.
 GEAR = PINION.of_module_one

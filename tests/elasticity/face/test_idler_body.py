@@ -10,8 +10,7 @@ from fenics_gears.elasticity.condensation import by_radius
 from fenics_gears.elasticity.face import computed
 from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
 from fenics_gears.elasticity.face.swept_stiffness import ELEMENT
-from fenics_gears.geometry.in_mesh import rotation
-from fenics_gears.geometry.outline import centreline_angle
+from fenics_gears.geometry.outline import centreline_angle, rotation
 
 REACH = Reach(1, (-3, 1), (2, 2))
 

@@ -22,7 +22,7 @@ from fenics_gears.elasticity.face.web import webbed_section
 from fenics_gears.elasticity.nodal_stress import NodalStress
 from fenics_gears.elasticity.recovery import gear_recovery
 from fenics_gears.geometry.gear_data import Web
-from fenics_gears.geometry.in_mesh import rotation
+from fenics_gears.geometry.outline import rotation
 from fenics_gears.show.stress_grid import surface, wedges
 from fenics_gears.simulation.run_stresses import GearInSpace, layers_of, outer_sides
 

@@ -17,8 +17,7 @@ from fenics_gears.elasticity.mesh_data import BodyMesh
 from fenics_gears.elasticity.ring import ring_compliance
 from fenics_gears.elasticity.whole_body.condensed import whole_body_compliance
 from fenics_gears.elasticity.whole_body.outline import whole_body
-from fenics_gears.geometry.in_mesh import rotation
-from fenics_gears.geometry.outline import tooth_outline
+from fenics_gears.geometry.outline import rotation, tooth_outline
 from meshes.root_crack import RootCrack, cracked_gear_mesh
 
 

@@ -13,7 +13,7 @@ from fenics_gears.elasticity.body_mesh_file import read_body_mesh, write_body_me
 from fenics_gears.elasticity.gmsh_session import start
 from fenics_gears.elasticity.mesh_data import BodyMesh
 from fenics_gears.elasticity.whole_body.outline import OUTLINE_TOLERANCE, whole_body
-from fenics_gears.geometry.in_mesh import rotation
+from fenics_gears.geometry.outline import rotation
 from meshes.root_crack import joined_sectors
 
 
