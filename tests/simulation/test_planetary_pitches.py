@@ -80,7 +80,7 @@ def centrelines(row, cycle, mesh: int, side: int) -> dict[int, float]:
 def test_a_tooth_is_the_same_in_all_meshes_of_its_gear():
     """Brute force: where an involute tooth stands that touches there; each tooth has an error of its own."""
     pitches = {
-        name: [f"{each!r} um" for each in np.tile(each - np.mean(each), gears)]
+        name: [f"{each!r} um" for each in np.tile(each - np.mean(each), gears).tolist()]
         for name, teeth, gears in (("sun", 17, 1), ("planets", 19, 3))
         for each in [np.arange(teeth) ** 2 % 23 + np.arange(teeth) / 7.0]
     }
