@@ -90,6 +90,7 @@ def load_and_motion(tree: Mapping[str, Any]) -> tuple[list[Any], list[Problem]]:
         written = tree.get(name, {})
         if not isinstance(written, Mapping):
             problems.append(Problem((name,), as_written(written), f"is not a section with {fields_of(section)}."))
+            found.append(None)
             continue
         values, wrong = read_by_itself(section, written, (name,))
         found.append(values)
