@@ -27,7 +27,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from fenics_gears.geometry.planetary import CARRIER, RING, SUN, WITH_RING
-from fenics_gears.geometry.train_graph import PINION, turns_of_shafts
+from fenics_gears.geometry.train_graph import PINION
 
 from .damping import Damping, damping_of
 from .drivetrain import Drivetrain, TurningFrame
@@ -121,8 +121,8 @@ class RowsOfSet(Rows):
                 load += speed**2 * lumped.mass * self.own.places[shaft - 1] @ beside
         return TurningFrame(skew, off, load, self.own.step)
 
-    def momentum(self, turns: Sequence) -> np.ndarray:
-        """Momentum (k,), N s, of all masses in space, as the carrier sees the sun turn by 1 rad/s."""
+    def momentum(self, mass: np.ndarray, turns: Sequence) -> np.ndarray:
+        """In space, of all masses, carrier and load among them, as the carrier sees the sun turn by 1 rad/s."""
         own = self.own
         # Counter-clockwise in space: of sun, planets and ring, and of the carrier.
         rotations = own.in_a_turn + np.array([1.0, *(-float(each) for each in turns[1:])])
@@ -175,7 +175,6 @@ def set_drivetrain(
     masses = np.diag([lumped.get(member, 0.0) for member in WITH_RING])
     frame = rows.in_the_frame()
     output = rows.turned(own.output)
-    turns = turns_of_shafts(rows.graph, [(pair.pinion.teeth, pair.wheel.teeth) for pair in parts.pairs])
     assert as_train.mass is not None
     undamped = replace(
         as_train,
@@ -185,6 +184,5 @@ def set_drivetrain(
         frame=frame if own.speed else None,
         angle=own.behind * output,
         of_members=members,
-        nominal_momentum=rows.momentum(turns),
     )
     return replace(undamped, damping=damping_of(undamped, damping, np.array(mesh_stiffness)))

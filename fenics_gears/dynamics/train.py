@@ -177,6 +177,15 @@ class Rows:
                 motion[place] = -abs(self.radii[place]) * float(turn) if shaft else self.radii[place]
         return motion
 
+    def momentum(self, mass: np.ndarray, turns: Sequence[Fraction]) -> np.ndarray:
+        """Momentum (k,), N s, of gears and load, whose `mass` (k, k) it is, as the first shaft turns by 1 rad/s."""
+        found = mass @ self.nominal(turns)
+        if "rotation_1" not in self.names:
+            # Its turn is prescribed: gears that turn against it are moved on all the same.
+            for gear in self.graph.on(0):
+                found += self.parts.masses[gear].moment_of_inertia * self.rotation(gear, PINION)
+        return found
+
     def motion_of(self, shafts: Sequence[int], turns: Sequence[Fraction]) -> tuple[float, ...]:
         """The motion (k,) of shafts that turn together, of length 1; `turns` of each shaft in one of the first."""
         motion = np.zeros(len(self.names))
@@ -233,7 +242,7 @@ def train_drivetrain(
     if undamped.mass is None:
         return undamped
     dampers = damping_of(undamped, damping, np.array(mesh_stiffness))
-    return replace(undamped, damping=dampers, nominal_momentum=_momentum(rows, undamped.mass, turns))
+    return replace(undamped, damping=dampers, nominal_momentum=rows.momentum(undamped.mass, turns))
 
 
 def _stiffness(rows: Rows) -> tuple[np.ndarray, np.ndarray]:
@@ -266,16 +275,6 @@ def _mass(rows: Rows) -> np.ndarray:
     for shaft, load in parts.loads.items():
         end = rows.end(shaft)
         found += load * np.outer(end, end)
-    return found
-
-
-def _momentum(rows: Rows, mass: np.ndarray, turns: Sequence[Fraction]) -> np.ndarray:
-    """Momentum (k,), N s, of gears and load as the first shaft turns by 1 rad/s."""
-    found = mass @ rows.nominal(turns)
-    if "rotation_1" not in rows.names:
-        # Its turn is prescribed: gears that turn against it are moved on all the same.
-        for gear in rows.graph.on(0):
-            found += rows.parts.masses[gear].moment_of_inertia * rows.rotation(gear, PINION)
     return found
 
 

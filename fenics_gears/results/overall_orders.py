@@ -60,9 +60,25 @@ def cycles_of_meshes(result: xr.Dataset, train: TrainScene) -> list[CycleOfMesh]
     >>> [round(each.order, 9) for each in cycles_of_meshes(simulate_train(train), train)]
     [24.0, 24.0]
     """
-    _check_steady(train)
-    if train.shafts.moving:
-        return _fitted(result, train)[0]
+    return _cycles_and_turns(result, train, turns=False)[0]
+
+
+def _cycles_and_turns(
+    result: xr.Dataset, train: TrainScene, turns: bool
+) -> tuple[list[CycleOfMesh], list[OverallOrder]]:
+    """As `cycles_of_meshes`; with `turns` also the orders of turns."""
+    if train.shafts.ramp is not None:
+        raise SceneError(
+            "speed_ramp: orders of the whole run are of a steady speed. Allowed: without [speed_ramp], or the report,"
+            f" which has them over the speed. {NOTHING_DONE}"
+        )
+    moving = train.shafts.moving
+    fitted, of_turns = _fitted(result, train) if moving or turns else ([], [])
+    return fitted if moving else _by_themselves(result, train), of_turns if turns else []
+
+
+def _by_themselves(result: xr.Dataset, train: TrainScene) -> list[CycleOfMesh]:
+    """What each mesh adds where its row runs by itself."""
     found = []
     behind = train.turns_of_last
     for link in train.links:
@@ -75,14 +91,6 @@ def cycles_of_meshes(result: xr.Dataset, train: TrainScene) -> list[CycleOfMesh]
         frequency = link.cycles * link.frequency
         found.append(CycleOfMesh(link.name, values, frequency, frequency / train.input_speed))
     return found
-
-
-def _check_steady(train: TrainScene) -> None:
-    if train.shafts.ramp is not None:
-        raise SceneError(
-            "speed_ramp: orders of the whole run are of a steady speed. Allowed: without [speed_ramp], or the report,"
-            f" which has them over the speed. {NOTHING_DONE}"
-        )
 
 
 def _fitted(result: xr.Dataset, train: TrainScene) -> tuple[list[CycleOfMesh], list[OverallOrder]]:
@@ -156,9 +164,7 @@ def overall_orders(result: xr.Dataset, train: TrainScene, *, turns: bool = False
     [24, 48, 72]
     """
     alike: list[list[CycleOfMesh]] = []
-    _check_steady(train)
-    fit = _fitted(result, train) if turns or train.shafts.moving else None
-    cycles = fit[0] if fit is not None and train.shafts.moving else cycles_of_meshes(result, train)
+    cycles, of_turns = _cycles_and_turns(result, train, turns)
     for each in cycles:
         known = next((group for group in alike if abs(group[0].order / each.order - 1.0) < 1e-9), None)
         if known is None:
@@ -176,5 +182,4 @@ def overall_orders(result: xr.Dataset, train: TrainScene, *, turns: bool = False
             OverallOrder(names, cycles.index(first), n, n * first.order, n * first.frequency, float(amplitude))
             for n, amplitude in enumerate(amplitudes, 1)
         ]
-    found += fit[1] if turns and fit is not None else []
-    return sorted(found, key=lambda each: each.order)
+    return sorted([*found, *of_turns], key=lambda each: each.order)

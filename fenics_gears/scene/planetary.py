@@ -44,14 +44,13 @@ def planetary_parts(tree: Tree, source: str, folder: Path) -> tuple[list[MeshOfS
     problems += wrong
     inertia, damping, wrong = inertia_and_damping(tree)
     problems += wrong
-    if problems:
-        raise MistakesOfStage(problems)
-    ramp, problems = checked_ramp(tree, *found)
+    load, motion = found
+    ramp, wrong = checked_ramp(tree, load, motion)
+    problems += wrong
     if problems:
         raise MistakesOfStage(problems)
     ((stage, content),) = tree[STAGES].items()
     text, problems = text_of_set(stage, content)
-    load, motion = found
     if text is not None and INERTIA in tree:
         problems += wrong_in_time((STAGES, stage), text, motion)
     if text is None or problems:
