@@ -119,6 +119,12 @@ class ContactOperator:
         return Stored(held) if isinstance(held, np.ndarray) else Stored(held.matrix, held.address)
 
     @property
+    def untouched(self) -> bool:
+        """Whether no row of a compliance whose rows are formed when nodes close is there yet."""
+        held = self.__dict__["compliance"]
+        return not isinstance(held, np.ndarray) and not held.formed.any()
+
+    @property
     def stored_before(self) -> Stored | None:
         """The previous compliance by columns, (m before, n), as far as they are formed; None without friction."""
         held = self.__dict__["previous_compliance"]

@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from math import ceil
+from threading import Event
 from typing import Protocol
 
 import numpy as np
@@ -14,6 +15,7 @@ from fenics_gears.contact.addresses import GAP, NODES, ROW
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.operator import Position
 from fenics_gears.contact.step_solver import NEWTON
+from fenics_gears.system.second_process import threads
 
 from .compiled_march import NO_SETS, Course, solve_steps
 from .stepping import STEPS_SLID_BEFORE_START, EquationsOfMotion, Stepper
@@ -126,6 +128,20 @@ class Batch:
             durations[:, 1:] = self.common.clock.durations(np.array(numbers))
         return block
 
+    def without_friction(self, block: Block) -> Block | None:
+        """The steps of a block of a single run at rest without friction; None where it has none, and where friction has
+        been solved for at these positions."""
+        new = [place for place in range(1, block.length) if block.steps.positions[place].operator.untouched]
+        if not new or not self.common.friction or self.opened is not None or self.plain:
+            return None
+        first, end = new[0] - 1, new[-1] + 1
+        rows = block.steps.table[first:end].copy()
+        rows[:, RIGID_SLIP] = 0
+        numbers, positions = block.steps.numbers[first:end], block.steps.positions[first:end]
+        sets = [np.full(nodes, -1, dtype=np.int8) for nodes in rows[:, NODES]]
+        before = [block.record(0, 0)] if first == 0 else ()
+        return self._block([0], [*numbers.tolist()], positions, rows[None], sets, before)
+
     def between(self, asked: Sequence[tuple[int, float]], lasts: Sequence[Record]) -> Block:
         """Runs at a place between steps each, without inertia, after the last whole step before it; without friction no
         step is needed."""
@@ -227,6 +243,23 @@ class Block:
                 self.steps.put(first + self.done[number], self._by_itself(number, self.done[number]))
                 self.done[number] += 1
 
+    def solve_on(self, number: int, first: int, end: int, ended: Event) -> int:
+        """Solve the steps of a course at rest from its place `first` to before `end`, those before them being solved by
+        another thread; returns the first place that is not solved. Ends early where Newton's method fails or `ended` is
+        set."""
+        known, place = self._batch.common.sets, number * self.length + first
+        if first > self.done[number]:
+            step = float(self.steps.numbers[place])
+            self.begin(number, first, known.near(step, self.steps.positions[place]))
+        motion = self._batch.steppers[self._runs[number]].static_motion
+        end += number * self.length
+        while place < end and not ended.is_set():
+            solved = solve_steps(self.steps, place, place + 1, motion, self.course)
+            if solved == place:
+                break
+            place = solved
+        return place - number * self.length
+
     def _by_itself(self, number: int, at: int) -> Record:
         """A step of a course, solved in Python with all fallbacks."""
         stepper = self._batch.alone(self._runs[number])
@@ -239,6 +272,13 @@ class Block:
             record = stepper.step(scheme, self.steps.record(place - 1), step)
         # A divided step ends at a position of its own, after a part of a step.
         return record if record.parts else replace(record, position=self.steps.positions[place])
+
+    def middle(self, number: int, end: int) -> int:
+        """From which place on a second thread may solve the steps of a course that are left before `end`: this where
+        each follows from the one before it."""
+        left, common = end - self.done[number], self._batch.common
+        apart = left > 1 and self.course.at_rest and common.cycle.traits.repeats and not self._batch.plain
+        return end - left // 2 if apart and threads() > 1 else end
 
     def sets(self, number: int, at: int) -> np.ndarray:
         """The sets (n,) of a step of a course that is there."""

@@ -162,7 +162,7 @@ def _unpacked(numbers, k):
     )
 
 
-@njit(cache=True)
+@njit(cache=True, nogil=True)
 def _solve_steps(places, block, packed, durations, loads, cycle_before, at_rest, solver):
     steps, motion = in_block(block), _unpacked(packed, loads.shape[1])
     starts, kinds, states, status = steps.starts, steps.kinds, steps.states, steps.status
@@ -192,8 +192,9 @@ def _solve_steps(places, block, packed, durations, loads, cycle_before, at_rest,
         now, before = slice(starts[s], starts[s + 1]), slice(starts[s - 1], starts[s])
         contact = arrays_of(steps.rows[s], kinds, starts[s] - starts[s - 1])
         nodes, n = status[now], starts[s + 1] - starts[s]
-        before_then = status[before] if at_rest else cycle_before[before]
-        begin(nodes, status[before], contact.node_before, cycle_before[now], before_then)
+        # A copy: of a step at rest another thread may write the one before it.
+        sets_before = status[before].copy()
+        begin(nodes, sets_before, contact.node_before, cycle_before[now], sets_before if at_rest else cycle_before[before])
         slip_before = np.empty(0)
         if len(contact.rigid_slip):
             forces_before = steps.forces[kinds * starts[s - 1] : kinds * starts[s]]
@@ -201,6 +202,10 @@ def _solve_steps(places, block, packed, durations, loads, cycle_before, at_rest,
                 contact.rigid_slip, contact.previous_jacobian, contact.previous_columns, contact.rows_before,
                 states[s - 1, 0], forces_before,
             )  # fmt: skip
+        elif contact.rows_before != 0:
+            # Friction will need them.
+            closed_before = steps.forces[kinds * starts[s - 1] : kinds * starts[s - 1] + starts[s] - starts[s - 1]]
+            form_rows(contact.rows_before, np.flatnonzero(closed_before))
         free = turned(motion.free_motion, outer)
         if motion.modes:
             free = moved_by_contact(free, len(outer), moved)

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Sequence
-from contextlib import nullcontext
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager, nullcontext
 from functools import cache, cached_property
 from math import ceil
-from typing import TypeVar
+from threading import Event
+from typing import Any, TypeVar
 
 import numpy as np
 from threadpoolctl import ThreadpoolController
@@ -28,6 +30,7 @@ SECONDS_BETWEEN_REPORTS = 0.1
 LONGEST_BLOCK = 512
 
 Solved = TypeVar("Solved")
+Value = TypeVar("Value")
 Report = Callable[[int], None]
 # Takes the next steps of a run.
 Take = Callable[[int, Steps], None]
@@ -37,6 +40,18 @@ Take = Callable[[int, Steps], None]
 def thread_pools() -> ThreadpoolController:
     """The libraries with threads that are loaded as the first march begins: to find them takes milliseconds."""
     return ThreadpoolController()
+
+
+@contextmanager
+def at_once(work: Callable[..., Value], *arguments: Any) -> Iterator[Callable[[], Value]]:
+    """Meanwhile a second thread does `work(*arguments, ended)`, which ends early when `ended` is set; waits for what it
+    returns."""
+    ended = Event()
+    with ThreadPoolExecutor(1) as second:
+        try:
+            yield second.submit(work, *arguments, ended).result
+        finally:
+            ended.set()
 
 
 class Marcher:
@@ -202,6 +217,7 @@ class Marcher:
         block = self.batch.after(lasts, numbers)
         taken = 0 if numbers[0] == 1 else 1
         try:
+            self._begin(block)
             self._solve(block, list(lasts), report)
         finally:
             for number, run in enumerate(lasts):
@@ -238,6 +254,25 @@ class Marcher:
             block.begin(number, at, block.sets(last, at))
 
     def _solve_course(self, block: Block, number: int, end: int, report: Report) -> None:
+        """Solve a course to before its place `end`; the later half of steps at rest by a second thread."""
+        middle = block.middle(number, end)
+        if middle < end:
+            with at_once(block.solve_on, number, middle, end) as later:
+                self._solve_until(block, number, middle, report)
+                block.done[number] = later()
+        self._solve_until(block, number, end, report)
+
+    def _begin(self, block: Block) -> None:
+        """Solve steps with friction at new positions without it, by two threads: rows of the compliance are formed, and
+        sets near theirs are known."""
+        smooth = self.batch.without_friction(block)
+        middle = 0 if smooth is None else smooth.middle(0, smooth.length)
+        if smooth is not None and middle < smooth.length:
+            with at_once(smooth.solve_on, 0, middle, smooth.length) as later:
+                smooth.solve_on(0, 1, middle, Event())
+                later()
+
+    def _solve_until(self, block: Block, number: int, end: int, report: Report) -> None:
         while block.done[number] < end:
             begun = time.perf_counter()
             first = block.done[number]
