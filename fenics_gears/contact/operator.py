@@ -120,9 +120,10 @@ class ContactOperator:
 
     @property
     def untouched(self) -> bool:
-        """Whether no row of a compliance whose rows are formed when nodes close is there yet."""
+        """Whether rows of the compliance are formed when nodes close, and none has closed yet."""
         held = self.__dict__["compliance"]
-        return not isinstance(held, np.ndarray) and not held.formed.any()
+        # The first row is there from the beginning.
+        return not isinstance(held, np.ndarray) and not held.formed[1:].any()
 
     @property
     def stored_before(self) -> Stored | None:

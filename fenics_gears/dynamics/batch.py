@@ -276,9 +276,11 @@ class Block:
     def middle(self, number: int, end: int) -> int:
         """From which place on a second thread may solve the steps of a course that are left before `end`: this where
         each follows from the one before it."""
-        left, common = end - self.done[number], self._batch.common
-        apart = left > 1 and self.course.at_rest and common.cycle.traits.repeats and not self._batch.plain
-        return end - left // 2 if apart and threads() > 1 else end
+        left, batch = end - self.done[number], self._batch
+        if left < 2 or batch.plain or not batch.cycle.traits.repeats or threads() == 1:
+            return end
+        apart = self.course.at_rest and not self.steps.table[:, RIGID_SLIP].any()
+        return end - left // 2 if apart else end
 
     def sets(self, number: int, at: int) -> np.ndarray:
         """The sets (n,) of a step of a course that is there."""
