@@ -194,7 +194,9 @@ def _solve_steps(places, block, packed, durations, loads, cycle_before, at_rest,
         nodes, n = status[now], starts[s + 1] - starts[s]
         # A copy: of a step at rest another thread may write the one before it.
         sets_before = status[before].copy()
-        begin(nodes, sets_before, contact.node_before, cycle_before[now], sets_before if at_rest else cycle_before[before])
+        begin(
+            nodes, sets_before, contact.node_before, cycle_before[now], sets_before if at_rest else cycle_before[before]
+        )
         slip_before = np.empty(0)
         if len(contact.rigid_slip):
             forces_before = steps.forces[kinds * starts[s - 1] : kinds * starts[s]]
