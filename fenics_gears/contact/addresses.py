@@ -131,6 +131,17 @@ def not_inlined(typing_context):
     return types.void(), code
 
 
+@intrinsic
+def in_order(typing_context):
+    """What other threads see of memory: all that was written before, then what is written after."""
+
+    def code(context, builder, signature, arguments):
+        builder.fence("seq_cst")
+        return context.get_dummy_value()
+
+    return types.void(), code
+
+
 @njit(cache=True)
 def form_rows(address, nodes):
     """Form those rows of contact nodes, in increasing order, that are not yet formed; `address` of the table of a

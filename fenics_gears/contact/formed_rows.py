@@ -20,6 +20,7 @@ from fenics_gears.system.memory import pages
 
 from .addresses import (
     form_rows,
+    in_order,
     integer_matrix,
     integer_vector,
     number_array_3,
@@ -149,6 +150,8 @@ def _form_rows(address, nodes, count):
     formed = carray(to_flag(table[-1, 0]), table[-1, 1])
     asked = carray(to_integer(nodes), count)
     missing = asked[~formed[asked]]
+    # Two threads may form a row: both store the same, and each tells that it is there afterwards.
+    in_order()
     source, begin = _source(table), 0
     if not len(source.columns.group):
         return 1
@@ -157,6 +160,7 @@ def _form_rows(address, nodes, count):
         while end < len(missing) and source.rows.group[missing[end]] == group:
             end += 1
         _form(source, group, missing[begin:end])
+        in_order()
         formed[missing[begin:end]] = True
         begin = end
     return 1
@@ -233,16 +237,16 @@ def _form(source, group, nodes):
     add_fine(found, rows, columns, source.fine, group, nodes)
     add_ends(found, rows, source.fine, group, nodes)
     layer = source.fine.layers[rows.groups[SLICE, group]] * source.fine.shares[rows.groups[SLICE, group]]
+    if layer != 0.0:
+        for d in range(kinds):
+            for number in range(count):
+                found[d, nodes[number], d * count + number] += layer
     # Each value is stored at once, never added to: the system hands out a page twice where it is read before it is
-    # written.
+    # written, and another thread may read it.
     for e, j in np.ndindex((others, m)):
         for d in range(kinds):
             for number in range(count):
                 matrix[d * n + nodes[number], e * m + j] = found[e, j, d * count + number]
-    if layer != 0.0:
-        for d in range(kinds):
-            for node in nodes:
-                matrix[d * n + node, d * m + node] += layer
 
 
 @njit(cache=True)

@@ -238,7 +238,7 @@ def _newton_in_place(numbers, method):
     return COUNT * iterations + outcome
 
 
-@njit(cache=True)
+@njit(cache=True, nogil=True)
 def newton_at(solver, numbers, method):
     """As `newton`, from arrays given by their addresses: to find the types of many arrays takes numba longer than a
     small step.

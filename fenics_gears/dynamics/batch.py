@@ -12,12 +12,13 @@ from typing import Protocol
 import numpy as np
 
 from fenics_gears.contact.addresses import GAP, NODES, ROW
+from fenics_gears.contact.errors import ContactNotConverged
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.operator import Position
 from fenics_gears.contact.step_solver import NEWTON
 from fenics_gears.system.second_process import threads
 
-from .compiled_march import NO_SETS, Course, solve_steps
+from .compiled_march import NO_SETS, Course, Motion, solve_steps
 from .stepping import STEPS_SLID_BEFORE_START, EquationsOfMotion, Stepper
 from .steps import Record, Steps, table_of
 
@@ -233,8 +234,7 @@ class Block:
         """Solve the steps of a course to before its place `end`: by Newton's method in compiled code, and by itself
         where that does not solve a step at once. Raises ContactNotConverged."""
         first = number * self.length
-        stepper = self._batch.steppers[self._runs[number]]
-        motion = stepper.static_motion if self.course.at_rest else stepper.motion
+        motion = self._motion(number)
         while self.done[number] < end:
             if not self._batch.plain:
                 places = first + self.done[number], first + end
@@ -244,28 +244,37 @@ class Block:
                 self.done[number] += 1
 
     def solve_on(self, number: int, first: int, end: int, ended: Event) -> int:
-        """Solve the steps of a course at rest from its place `first` to before `end`, those before them being solved by
-        another thread; returns the first place that is not solved. Ends early where Newton's method fails or `ended` is
-        set."""
-        known, place = self._batch.common.sets, number * self.length + first
-        if first > self.done[number]:
-            step = float(self.steps.numbers[place])
-            self.begin(number, first, known.near(step, self.steps.positions[place]))
-        motion = self._batch.steppers[self._runs[number]].static_motion
-        end += number * self.length
-        while place < end and not ended.is_set():
-            solved = solve_steps(self.steps, place, place + 1, motion, self.course)
-            if solved == place:
-                break
-            place = solved
-        return place - number * self.length
+        """Solve the steps of a course that stand still from its place `first` to before `end`, those before them being
+        solved by another thread; returns the first place that is not solved. Ends early where a step has no solution,
+        and when `ended` is set."""
+        at = first
+        while at < end and not ended.is_set():
+            place = number * self.length + at
+            if self._batch.plain:
+                try:
+                    self.steps.put(place, self._by_itself(number, at, alone=at == first))
+                except ContactNotConverged:
+                    break
+            else:
+                if at == first and at > self.done[number]:
+                    step = float(self.steps.numbers[place])
+                    self.begin(number, at, self._batch.common.sets.near(step, self.steps.positions[place]))
+                if solve_steps(self.steps, place, place + 1, self._motion(number), self.course) == place:
+                    break
+            at += 1
+        return at
 
-    def _by_itself(self, number: int, at: int) -> Record:
-        """A step of a course, solved in Python with all fallbacks."""
+    def _motion(self, number: int) -> Motion:
+        """That of a course."""
+        stepper = self._batch.steppers[self._runs[number]]
+        return stepper.static_motion if self.course.at_rest else stepper.motion
+
+    def _by_itself(self, number: int, at: int, alone: bool = False) -> Record:
+        """A step of a course, solved in Python with all fallbacks; `alone`: not after the step before it."""
         stepper = self._batch.alone(self._runs[number])
         place = number * self.length + at
         step = self.steps.record(place).step
-        if at == 1 and not self._begun:
+        if alone or at == 1 and not self._begun:
             record = stepper.in_balance(step, stepper.cycle.position(step))
         else:
             scheme = stepper.static if self.course.at_rest else stepper.scheme(step)
@@ -276,11 +285,12 @@ class Block:
     def middle(self, number: int, end: int) -> int:
         """From which place on a second thread may solve the steps of a course that are left before `end`: this where
         each follows from the one before it."""
-        left, batch = end - self.done[number], self._batch
-        if left < 2 or batch.plain or not batch.cycle.traits.repeats or threads() == 1:
+        left, batch, at_rest = end - self.done[number], self._batch, self.course.at_rest
+        # In a plane a step takes less time than to begin a thread.
+        if left < 2 or batch.cycle.face.slices == 1 or threads() == 1 or self.steps.table[:, RIGID_SLIP].any():
             return end
-        apart = self.course.at_rest and not self.steps.table[:, RIGID_SLIP].any()
-        return end - left // 2 if apart else end
+        stand = at_rest and batch.cycle.traits.repeats or batch.plain and not batch.common.dynamic.inert
+        return end - left // 2 if stand else end
 
     def sets(self, number: int, at: int) -> np.ndarray:
         """The sets (n,) of a step of a course that is there."""
