@@ -12,7 +12,7 @@ import xarray as xr
 
 from fenics_gears import load_scene, simulate
 from fenics_gears.effects.body_meshes import BodyMeshes, MeshFile, located
-from fenics_gears.elasticity.body_mesh_file import write_body_mesh
+from meshes.mesh_file import write_body_mesh
 from fenics_gears.model.model import model_of
 from fenics_gears.results import by_pair
 from fenics_gears.scene.data import Scene

@@ -46,27 +46,7 @@ def is_only_solution(
 ) -> bool:
     """Whether no second solution slips in the same directions; `closed` (n,) bool, `sigma` (n,): friction p_t/(mu p_n)
     of a node."""
-    nodes = np.flatnonzero(closed)
-    if not len(nodes):
-        return True
-    n = len(closed)
-    share = friction * sigma[nodes]
-    values, vectors, held = _motions(stiffness.tobytes(), len(stiffness))
-    normal, tangential = jacobian[nodes] @ vectors, jacobian[n + nodes] @ vectors
-    matrix = compliance[np.ix_(nodes, nodes)] + compliance[np.ix_(nodes, n + nodes)] * share
-    sliding = normal + share[:, None] * tangential
-    matrix = matrix + (normal[:, held] / values[held]) @ sliding[:, held].T
-    if held.all() and _positive(matrix):
-        return True
-    softest, with_friction = normal[:, 0], sliding[:, 0]
-    if not np.all(softest * with_friction > 0.0):
-        return False
-    weighted = (with_friction / softest)[:, None] * matrix
-    if held.all():
-        return _positive(weighted)
-    if len(held) - held.sum() > 1:
-        return False
-    return _positive(_across(with_friction, weighted))
+    return _certified(stiffness, friction, [(compliance, jacobian, np.flatnonzero(closed), sigma)])[0]
 
 
 def uncertified(stiffness: np.ndarray, friction: float, solved: Iterable) -> int:
@@ -82,48 +62,58 @@ def uncertified(stiffness: np.ndarray, friction: float, solved: Iterable) -> int
         sigma[stick] = tangential / (friction * np.maximum(normal, np.finfo(float).tiny))
     keys = [(id(operator), sigma[own].tobytes(), status[own].tobytes()) for operator, own in zip(operators, parts)]
     times, first = Counter(keys), {key: place for place, key in reversed(list(enumerate(keys)))}
-    judged = [(operators[place], np.flatnonzero(sets[place] != OPEN), sigma[parts[place]]) for place in first.values()]
-    plain = _plainly_only(stiffness, friction, judged)
-    return sum(
-        times[key]
-        for (key, place), (operator, _, own), certified in zip(first.items(), judged, plain)
-        if not certified
-        and not is_only_solution(stiffness, operator.stored.rows, operator.jacobian, friction, sets[place] != OPEN, own)
-    )
+    judged = [
+        (
+            operators[place].stored.rows,
+            operators[place].jacobian,
+            np.flatnonzero(sets[place] != OPEN),
+            sigma[parts[place]],
+        )
+        for place in first.values()
+    ]
+    certified = _certified(stiffness, friction, judged)
+    return sum(times[key] for key, only in zip(first, certified) if not only)
 
 
-def _plainly_only(stiffness: np.ndarray, friction: float, judged: list[tuple]) -> list[bool]:
-    """Whether D = 1 is a certificate, or D = diag(b/a) where contact alone holds the load, of many at once (operator,
-    closed nodes, sigma): those with as many closed nodes m together."""
+def _certified(stiffness: np.ndarray, friction: float, judged: list[tuple]) -> list[bool]:
+    """Whether each of many solutions (compliance, Jacobian, closed nodes, sigma) has a certificate, by D = 1 or by D =
+    diag(b/a), or by the latter alone where contact alone holds the load: those with as many closed nodes m together."""
     values, vectors, held = _motions(stiffness.tobytes(), len(stiffness))
-    certified, of_size, free = [False] * len(judged), defaultdict(list), not held.all()
+    certified = [not len(nodes) for *_, nodes, _ in judged]
     if np.count_nonzero(~held) > 1:
         return certified
-    for place, (_, nodes, _) in enumerate(judged):
-        of_size[len(nodes)].append(place)
+    of_size: dict[int, list[int]] = defaultdict(list)
+    for place, (*_, nodes, _) in enumerate(judged):
+        if len(nodes):
+            of_size[len(nodes)].append(place)
     for m, places in of_size.items():
-        matrices, moved, share = (
-            np.empty((len(places), m, m)),
-            np.empty((len(places), 2 * m, len(values))),
-            np.empty((len(places), m)),
-        )
+        matrices = np.empty((len(places), m, m))
+        moved = np.empty((len(places), 2 * m, len(values)))
+        share = np.empty((len(places), m))
         for i, place in enumerate(places):
-            operator, nodes, sigma = judged[place]
-            moved[i] = operator.jacobian[np.concatenate((nodes, len(sigma) + nodes))]
+            compliance, jacobian, nodes, sigma = judged[place]
+            moved[i] = jacobian[np.concatenate((nodes, len(sigma) + nodes))]
             share[i] = friction * sigma[nodes]
-            between_closed(matrices[i], operator.stored.rows, nodes, share[i])
+            between_closed(matrices[i], compliance, nodes, share[i])
         moved = moved @ vectors
-        normal, sliding = moved[:, :m], moved[:, :m] + share[:, :, None] * moved[:, m:]
+        normal = moved[:, :m]
+        sliding = normal + share[:, :, None] * moved[:, m:]
         matrices = matrices + (normal[..., held] / values[held]) @ sliding[..., held].transpose(0, 2, 1)
-        if free and m:
-            a, b = normal[..., 0], sliding[..., 0]
-            apart = np.all(a * b > 0.0, axis=1)
-            places = list(compress(places, apart))
-            matrices = _across(b[apart], (b / a)[apart, :, None] * matrices[apart])
-        together = _positive(matrices)
-        for place, matrix in zip(places, matrices):
-            certified[place] = together or _positive(matrix)
+        if held.all():
+            _certify(certified, places, matrices)
+        a = normal[..., 0]
+        b = sliding[..., 0]
+        left = np.all(a * b > 0.0, axis=1) & ~np.array(certified)[places]
+        weighted = (b[left] / a[left])[:, :, None] * matrices[left]
+        _certify(certified, list(compress(places, left)), weighted if held.all() else _across(b[left], weighted))
     return certified
+
+
+def _certify(certified: list[bool], places: list[int], matrices: np.ndarray) -> None:
+    """In place, say of `places` whether their matrices are positive definite."""
+    together = _positive(matrices)
+    for place, matrix in zip(places, matrices):
+        certified[place] = together or _positive(matrix)
 
 
 @njit(cache=True)

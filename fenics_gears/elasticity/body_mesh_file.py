@@ -1,4 +1,4 @@
-"""Reading and writing the mesh of a gear body as a gmsh file."""
+"""Reading the mesh of a gear body from a gmsh file."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -7,12 +7,10 @@ import numpy as np
 
 from fenics_gears.errors import ComputationError, SceneError
 
-from .gmsh_session import gmsh_model
-from .mesh_content import LINE, mesh_content
+from .mesh_content import mesh_content
 from .mesh_data import BodyMesh, corner_areas, oriented
 
 CORNERS_BY_TYPE = {2: 3, 3: 4}  # gmsh's numbers of straight-sided triangles and quadrilaterals
-TYPE_BY_CORNERS = {corners: number for number, corners in CORNERS_BY_TYPE.items()}
 # How far the points of a plane mesh may lie off one plane, in parts of the body's size.
 PLANE = 1e-6
 
@@ -42,29 +40,6 @@ def read_body_mesh(path) -> BodyMesh:
     named = {str(name): content.lines[content.curves == name] for name in dict.fromkeys(content.curves)}
     edges = {name: np.searchsorted(used, lines) for name, lines in named.items() if np.isin(lines, used).all()}
     return BodyMesh(points, _facing_one_way(points, np.searchsorted(used, cells), path), edges)
-
-
-def write_body_mesh(mesh: BodyMesh, path) -> None:
-    """Write a body, mm, as a gmsh file of format 4.1; named edges become physical curves, the body the physical surface
-    "gear". Raises SceneError where the file cannot be written."""
-    try:
-        Path(path).touch()
-    except OSError as error:
-        raise SceneError(f"body mesh {path}: cannot be written: {error.strerror}") from None
-    corners = mesh.cells.shape[1]
-    with gmsh_model("body mesh") as gmsh:
-        surface = gmsh.model.addDiscreteEntity(2)
-        coordinates = np.column_stack([mesh.points, np.zeros(len(mesh.points))])
-        gmsh.model.mesh.addNodes(2, surface, np.arange(1, len(mesh.points) + 1), coordinates.ravel())
-        gmsh.model.mesh.addElementsByType(surface, TYPE_BY_CORNERS[corners], [], (mesh.cells + 1).ravel())
-        gmsh.model.setPhysicalName(2, gmsh.model.addPhysicalGroup(2, [surface]), "gear")
-        for name, lines in mesh.edges.items():
-            curve = gmsh.model.addDiscreteEntity(1)
-            gmsh.model.mesh.addElementsByType(curve, LINE, [], (np.asarray(lines) + 1).ravel())
-            gmsh.model.setPhysicalName(1, gmsh.model.addPhysicalGroup(1, [curve]), name)
-        gmsh.option.setNumber("Mesh.MshFileVersion", 4.1)
-        gmsh.option.setNumber("Mesh.Binary", 0)
-        gmsh.write(str(path))
 
 
 def _kinds(names: Sequence[str]) -> str:

@@ -22,7 +22,7 @@ from .face.computed import swept_section
 from .face.cut_motions import cut_motions, loads_over_motions, over_motions
 from .face.discretisation import FaceDiscretisation
 from .nodal_stress import NodalStress
-from .ring import cyclic, cyclic_motion, ring_work
+from .ring import cyclic, cyclic_motion, ring_work, turn_last
 from .sector import Sector, plane_sector, swept_sector
 from .sector_mesh import sector_mesh
 from .spanned import spanned
@@ -58,9 +58,7 @@ class GearRecovery:
         self._pitch = kron(identity(self._half // sector.components), turn, format="csr")
         # The upper cut's dofs in the frame of the next sector.
         link = sector.link.copy()
-        half = self._half
-        link[half:] = self._pitch.T @ link[half:]
-        link[:, half:] = link[:, half:] @ self._pitch
+        turn_last(link, self._half, turn)
         self._link = 0.5 * (link + link.T)
         self._same, self._ahead = cyclic(self._link)
 

@@ -9,7 +9,7 @@ from collections.abc import Callable
 
 import numpy as np
 from scipy.linalg import block_diag, cho_solve, get_lapack_funcs
-from scipy.linalg.blas import ztrsm
+from scipy.linalg.blas import dsyrk, dtrsm, ztrsm
 
 from fenics_gears.errors import ComputationError
 from fenics_gears.geometry.outline import rotation
@@ -71,11 +71,31 @@ def joined_blocks(held: np.ndarray, to_cuts: np.ndarray, link: np.ndarray, teeth
 def between_cuts(sector: CondensedBody, teeth: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Of a sector the flank's compliance with the cuts held, (minus) its motion per motion of the cuts, and the
     stiffness between these, the flank free; frames as in `sector_cuts`."""
-    cuts, turn = sector_cuts(sector, teeth)
-    coupling = sector.stiffness[np.ix_(sector.dofs("flank"), cuts)] @ turn
-    held = definite_inverse(sector.between("flank", "flank"), "a flank")
-    to_cuts = held @ coupling
-    return held, to_cuts, turn.T @ sector.stiffness[np.ix_(cuts, cuts)] @ turn - coupling.T @ to_cuts
+    check_congruent(sector.points["lower"], sector.points["upper"], teeth)
+    flank = len(sector.dofs("flank"))
+    dofs = np.concatenate([sector.dofs(name) for name in ("flank", "lower", "upper")])
+    stiffness = sector.stiffness[np.ix_(dofs, dofs)]
+    turn_last(stiffness, len(sector.dofs("upper")), rotation(2.0 * np.pi / teeth))
+    return flank_free(stiffness, flank)
+
+
+def turn_last(stiffness: np.ndarray, last: int, turn: np.ndarray) -> None:
+    """In place, the `last` dofs of a stiffness into a frame that is turned (c, c) from theirs."""
+    size = len(turn)
+    rows = stiffness[-last:].reshape(last // size, size, -1)
+    rows[:] = turn.T @ rows
+    columns = stiffness[:, -last:].reshape(len(stiffness), last // size, size)
+    stiffness[:, -last:] = (columns @ turn).reshape(len(stiffness), last)
+
+
+def flank_free(stiffness: np.ndarray, flank: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """The same of a stiffness whose `flank` dofs come first and those of the cuts behind them."""
+    # Transposed, they are in LAPACK's order.
+    factor = definite_factor(stiffness[:flank, :flank].T, "a flank")
+    onto_cut = dtrsm(1.0, factor, stiffness[flank:, :flank].T, trans_a=1)
+    cut = stiffness[flank:, flank:] - symmetric(dsyrk(1.0, onto_cut, trans=1))
+    response = dtrsm(1.0, factor, onto_cut, overwrite_b=1)
+    return inverse_of_factor(factor, "a flank"), response, cut
 
 
 def sector_cuts(sector: CondensedBody, teeth: int) -> tuple[np.ndarray, np.ndarray]:

@@ -38,23 +38,11 @@ def sector_mesh(
     meshes. Raises ComputationError when gmsh fails, a cell is folded, or quadrilaterals meet an odd number of flank
     elements.
     """
+    boundary, field = sector_boundary(gear.of_module_one, sizes.in_modules_of(gear), flank_rolls)
+    fill = _filled_with_quadrilaterals if quadrilaterals else _filled_with_triangles
     if sizes.both_flanks:
-        return with_image(half_sector_mesh(gear, sizes, quadrilaterals, flank_rolls))
-    boundary, field = sector_boundary(gear.of_module_one, sizes.in_modules_of(gear), flank_rolls)
-    return _scaled(_filling(quadrilaterals)(boundary, field, NAMED_PARTS), gear)
-
-
-def half_sector_mesh(
-    gear: Gear, sizes: ElementSizes, quadrilaterals: bool = False, flank_rolls: np.ndarray | None = None
-) -> BodyMesh:
-    """The half with the drive flank of the symmetric `sector_mesh` of both working flanks
-    (`drive_half`)."""
-    boundary, field = sector_boundary(gear.of_module_one, sizes.in_modules_of(gear), flank_rolls)
-    return _scaled(drive_half(boundary, field, _filling(quadrilaterals)), gear)
-
-
-def _filling(quadrilaterals: bool):
-    return _filled_with_quadrilaterals if quadrilaterals else _filled_with_triangles
+        return _scaled(with_image(drive_half(boundary, field, fill)), gear)
+    return _scaled(fill(boundary, field, NAMED_PARTS), gear)
 
 
 def _scaled(mesh: BodyMesh, gear: Gear) -> BodyMesh:

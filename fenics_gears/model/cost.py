@@ -45,8 +45,8 @@ GIVEN_UNKNOWN = 5e-6
 GEAR = 0.04
 FLANK_CUBE = 7e-11
 FLANK_SQUARE = 2.8e-8
-# Two inverses of symmetric matrices by Cholesky, in those of a general one.
-BOTH_FLANKS_INVERSES = 0.75
+# Of each tooth of a gear that is meshed as a whole, in inverses of a flank's size.
+INVERSES_OF_A_TOOTH = 0.375
 # Seconds of marching: at a position each pair of flanks and the square of contact rows, a step and each of its rows.
 PAIR = 2.5e-4
 ROWS_SQUARE = 8e-8
@@ -112,8 +112,8 @@ SOLVED_UNKNOWN = 1.4e-7
 @dataclass(frozen=True)
 class _Gear:
     """A gear to be condensed: its finite elements' unknowns, the seconds of one, dofs of a flank, blocks of its
-    compliance that are computed, those that contact copies (the transposes, of teeth behind), dense inverses of a
-    flank's size."""
+    compliance that are computed, those that contact copies (the transposes, of teeth behind), dense inverses and the
+    dofs of their `joined` flanks."""
 
     words: str
     unknowns: float
@@ -121,6 +121,7 @@ class _Gear:
     flank_dofs: float
     blocks: float
     copied: float
+    joined: float
     inverses: float = 1.0
 
 
@@ -133,16 +134,15 @@ def _condensed(model: Model, name: str) -> _Gear:
     meshed = meshed_unknowns(model, name)
     if meshed is not None:
         # Of all teeth, where each has a compliance of its own.
-        inverses = 0.5 * BOTH_FLANKS_INVERSES * gear.teeth
-        return _Gear(f"the whole {name}", meshed, GIVEN_UNKNOWN, dofs, 1.0 * gear.teeth, 1.0, inverses)
+        inverses = INVERSES_OF_A_TOOTH * gear.teeth
+        return _Gear(f"the whole {name}", meshed, GIVEN_UNKNOWN, dofs, 1.0 * gear.teeth, 1.0, dofs, inverses)
     unknown = MESHED_UNKNOWN[resolution.element]
+    unknowns = body + per_node * dofs
+    words = f"a {name} sector"
     if reach.across is None:
-        return _Gear(f"a {name} sector", body + per_node * 0.5 * dofs, unknown, dofs, reach.same + 1, reach.same)
-    # Half a symmetric sector, for motions of either symmetry.
-    half = 0.5 * body + per_node * 0.5 * dofs
+        return _Gear(words, unknowns - 0.5 * per_node * dofs, unknown, dofs, reach.same + 1, reach.same, dofs)
     across = reach.across[1] - reach.across[0] + 1
-    blocks = reach.same + 1 + across
-    return _Gear(f"half a {name} sector", half, unknown, dofs, blocks, 2 * reach.same, BOTH_FLANKS_INVERSES)
+    return _Gear(words, unknowns, unknown, dofs, reach.same + 1 + across, 2 * reach.same, 2.0 * dofs)
 
 
 def _marching(model: Model, contact: Contact) -> float:
@@ -169,11 +169,11 @@ def _sections(model: Model, gears: list[_Gear]) -> ExpectedCost:
     condensing = sum(
         GEAR
         + gear.unknown * gear.unknowns
-        + gear.inverses * FLANK_CUBE * gear.flank_dofs**3
+        + gear.inverses * FLANK_CUBE * gear.joined**3
         + gear.blocks * FLANK_SQUARE * gear.flank_dofs**2
         for gear in gears
     )
-    joining = max(MATRICES_OF_A_FLANK * gear.flank_dofs**2 for gear in gears)
+    joining = max(MATRICES_OF_A_FLANK * gear.joined**2 for gear in gears)
     nodes = NUMBERS_OF_A_NODE * contact.positions * contact.nodes
     held = BYTES_OF_A_NUMBER * (_numbers(gears) + max(joining, nodes))
     operators = operator_bytes(model, contact)

@@ -22,9 +22,10 @@ from tests.whole_gear import whole_gear_mesh
 from fenics_gears import model_of, simulate
 from fenics_gears.elasticity.condensation import by_radius, without
 from fenics_gears.elasticity.element_nodes import dofs_of
-from fenics_gears.elasticity.face.condensed import ring_blocks
+from fenics_gears.elasticity.face.condensed import parts_of_ring
 from fenics_gears.elasticity.face.layers import Sweep, swept_nodes
 from fenics_gears.elasticity.face.swept_stiffness import ELEMENT, SectionForms, swept_stiffness
+from fenics_gears.elasticity.ring import joined_blocks
 from fenics_gears.geometry.outline import rotation
 from fenics_gears.model.resolution import hertz_half_width, plane_contact_modulus
 from fenics_gears.results.pairs import in_middle_slice
@@ -74,7 +75,7 @@ def test_ring_of_sectors_is_the_whole_gear(sector, measured):
     flanks = {f"flank {tooth}": flank_nodes(whole, f"flank {tooth}") for tooth in range(offsets + 1)}
     body = condense_swept(whole, TWISTED, 0.3, flanks, held=whole.edge_nodes("hub", ELEMENT.order))
     compliance, size, worst = np.linalg.inv(body.stiffness), len(body.dofs("flank 0")), 0.0
-    for offset, block in enumerate(ring_blocks(sector, GEAR.teeth, offsets)[:, :size, :size]):
+    for offset, block in enumerate(joined_blocks(*parts_of_ring(sector), GEAR.teeth, offsets)[:, :size, :size]):
         frame = np.kron(np.eye(size // 3), rotation(offset * GEAR.angular_pitch, 3))
         worst = max(worst, difference(block, frame.T @ compliance[offset * size : (offset + 1) * size, :size]))
     measured("ring of twisted sectors and whole gear: difference", worst, "1e-10", row=6)

@@ -1,20 +1,10 @@
-"""Windows, levels and sidebands of made-up signals."""
+"""Windows and levels of made-up signals."""
 
 import numpy as np
 import pytest
 import scipy.signal
-from scipy.special import jv
 
-from fenics_gears.results.spectrum import (
-    FLAT_TOP,
-    HANN,
-    NO_WINDOW,
-    SIDEBANDS,
-    WINDOWS,
-    order_lines,
-    sidebands,
-    weights_of,
-)
+from fenics_gears.results.spectrum import FLAT_TOP, HANN, NO_WINDOW, WINDOWS, order_lines, weights_of
 
 TEETH, PERIOD, STEPS = (16, 24), 48, 40
 
@@ -57,15 +47,3 @@ def test_a_line_between_bins_is_too_low_by_no_more_than_is_known(window, most, l
     assert found.amplitudes[np.abs(found.orders - order) > 6.0 * found.spacing].max() < left
     if window != NO_WINDOW:
         assert found.square(order) == pytest.approx(1.0, abs=2e-3)
-
-
-def test_phase_modulation_has_bessels_sidebands():
-    """Exact (Jacobi, Anger): cos(omega t + b sin(Omega t)) has J_0(b) and J_k(b)."""
-    depth = 0.8
-    signal = np.cos(2.0 * np.pi * 32.0 * turns(PERIOD) + depth * np.sin(2.0 * np.pi * turns(PERIOD)))
-    found = sidebands(order_lines(signal, PERIOD, TEETH), TEETH, 2)
-    assert found.line == pytest.approx(jv(0, depth) ** 2, rel=1e-9)
-    assert found.pinion == pytest.approx(2.0 * sum(jv(k, depth) ** 2 for k in range(1, SIDEBANDS + 1)), rel=1e-9)
-    # Every second sideband of the pinion is the third of the wheel, and so on.
-    assert found.wheel == pytest.approx(2.0 * sum(jv(k, depth) ** 2 for k in (2, 4)), rel=1e-9)
-    assert found.all == pytest.approx(found.pinion, rel=1e-9)

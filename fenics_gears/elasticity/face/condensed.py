@@ -12,13 +12,15 @@ from fenics_gears.geometry.outline import rotation
 from ..condensation import by_radius, line_of
 from ..element_nodes import dofs_of
 from ..mesh_data import BodyMesh
-from ..mirrored_ring import flank_free
 from ..mumps import schur_complement
-from ..ring import check_congruent, joined_blocks
+from ..ring import check_congruent, flank_free, turn_last
 from .coarse_cuts import cut_nodes, narrow_sweep, on_cut_nodes, root_pitch
 from .cut_motions import cut_motions, loads_on_flanks, over_motions
 from .layers import Sweep, SweptWeb, swept_nodes
 from .swept_stiffness import ELEMENT, SectionForms, swept_stiffness
+
+# Of a sector, what `ring.between_cuts` gives.
+Parts = tuple[np.ndarray, np.ndarray, np.ndarray]
 
 
 @dataclass(frozen=True)
@@ -74,7 +76,7 @@ def _condensed(mesh: BodyMesh, sweep: Sweep, poissons_ratio: float, teeth: int, 
         kept = dofs_of(np.concatenate(placed), 3)
         lower = np.column_stack([nodes[numbers[-2] % len(nodes)], sweep.heights[numbers[-2] // len(nodes)]])
     condensed = schur_complement(stiffness, kept)
-    _turn(condensed, lower.size, rotation(2.0 * np.pi / teeth, 3))
+    turn_last(condensed, lower.size, rotation(2.0 * np.pi / teeth, 3))
     timings = {"time_compile": compiled - clock, "unknowns": len(free), "condensed_unknowns": len(kept)}
     return SweptSector(condensed, lower, len(flanks[0]), sweep.web, timings)
 
@@ -109,20 +111,7 @@ def _dofs_by_height(flanks: int, profile: int, lower: np.ndarray, sweep: Sweep) 
     return [dofs_of(np.flatnonzero(of_nodes == height), 3) for height in range(len(heights))]
 
 
-def _turn(stiffness: np.ndarray, last: int, turn: np.ndarray) -> None:
-    """In place, of the `last` dofs."""
-    rows = stiffness[-last:].reshape(last // 3, 3, -1)
-    rows[:] = turn.T @ rows
-    columns = stiffness[:, -last:].reshape(len(stiffness), last // 3, 3)
-    stiffness[:, -last:] = (columns @ turn).reshape(len(stiffness), last)
-
-
-def ring_blocks(sector: SweptSector, teeth: int, offsets: int) -> np.ndarray:
-    """Flank compliance blocks (offsets + 1, f, f) of the ring of such sectors, as `ring.ring_compliance`."""
-    return joined_blocks(*parts_of_ring(sector), teeth, offsets)
-
-
-def parts_of_ring(sector: SweptSector) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def parts_of_ring(sector: SweptSector) -> Parts:
     """Of a sector between cuts that move in few ways, what `ring.between_cuts` gives of all their dofs."""
     stiffness = sector.stiffness
     flanks = len(stiffness) - 2 * sector.lower.size

@@ -10,6 +10,8 @@ import xarray as xr
 
 from fenics_gears import MICROMETRE, ComputationError, carried_scene, of_settled, spectrum
 
+from .sidebands import sidebands
+
 SIGNALS = {
     "transmission_error": ("um", "transmission error along the line of action"),
     "mesh_force": ("N", "mesh force"),
@@ -90,7 +92,7 @@ def _steady(
 
 
 def _beside(name: str, lines: spectrum.OrderLines, teeth: tuple[int, int]) -> dict[str, tuple]:
-    each = [spectrum.sidebands(lines, teeth, int(harmonic)) for harmonic in HARMONICS]
+    each = [sidebands(lines, teeth, int(harmonic)) for harmonic in HARMONICS]
     energy = np.array([[np.nan, np.nan] if one is None else [one.pinion, one.wheel] for one in each])
     ratio = np.array([np.nan if one is None else one.ratio for one in each])
     of_energy = _labels(f"{SIGNALS[name][0]}^2", "sum of squares of the sidebands' amplitudes")

@@ -12,10 +12,11 @@ from tests.structured import cells_of
 
 from fenics_gears.elasticity import dolfinx_adapter as adapter
 from fenics_gears.elasticity.condensation import by_radius
-from fenics_gears.elasticity.face.condensed import condensed_swept_sector, ring_blocks
+from fenics_gears.elasticity.face.condensed import condensed_swept_sector, parts_of_ring
 from fenics_gears.elasticity.face.layers import Sweep, SweptWeb, layers_of_face, layers_with_web
 from fenics_gears.elasticity.face.web import _cells
 from fenics_gears.elasticity.mesh_data import BodyMesh, oriented
+from fenics_gears.elasticity.ring import joined_blocks
 from fenics_gears.elasticity.slice_averages import slice_averages
 from fenics_gears.elasticity.stiffness import assembled
 
@@ -42,7 +43,7 @@ def motion(rim, width, thickness, order, direction, offset=0.0, hub=0.5 * BORE, 
     mesh = ring_sector(rim)
     web = SweptWeb(hub, rim, offset - 0.5 * thickness, offset + 0.5 * thickness)
     sweep = Sweep(layers_with_web(layers_of_face(layers, width), web.low, web.high), 0.0, web)
-    blocks = ring_blocks(condensed_swept_sector(mesh, sweep, POISSON, SECTORS), SECTORS, SECTORS // 2)
+    blocks = joined_blocks(*parts_of_ring(condensed_swept_sector(mesh, sweep, POISSON, SECTORS)), SECTORS, SECTORS // 2)
     x, y = (place := by_radius(mesh.edge_nodes("flank", 2)).mean(axis=0)) / np.linalg.norm(place)
     around = np.array([[x, -y, 0.0], [y, x, 0.0], [0.0, 0.0, 1.0]])
     heights = sweep.heights

@@ -9,11 +9,12 @@ from tests.coarse_sector import PINION, coarse_sector_mesh
 from tests.whole_gear import whole_gear_mesh
 
 from fenics_gears import SceneError
-from fenics_gears.elasticity.body_mesh_file import read_body_mesh, write_body_mesh
+from fenics_gears.elasticity.body_mesh_file import read_body_mesh
 from fenics_gears.elasticity.gmsh_session import start
 from fenics_gears.elasticity.mesh_data import BodyMesh
 from fenics_gears.elasticity.whole_body.outline import OUTLINE_TOLERANCE, whole_body
 from fenics_gears.geometry.outline import rotation
+from meshes.mesh_file import write_body_mesh
 from meshes.root_crack import joined_sectors
 
 
