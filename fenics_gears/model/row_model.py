@@ -91,7 +91,7 @@ class RowModel(OfMeshes):
 
     @property
     def equations_of_motion(self) -> EquationsOfMotion:
-        """Those of the first mesh, with the drivetrain of all."""
+        """Those of the first mesh, with the drivetrain of all and the largest coefficient of friction."""
         loads: tuple[VaryingLoad, ...] = ()
         ramp = self.ramp
         if ramp is not None:
@@ -100,7 +100,15 @@ class RowModel(OfMeshes):
             if self.drivetrain.frame is not None:
                 loads = (*loads, centrifugal_forces(ramp, self.drivetrain.frame.load))
         own = self.models[0].equations_of_motion
-        return replace(own, drivetrain=self.drivetrain, time_scales=self.time_scales, loads=loads)
+        friction = max(model.friction_coefficient for model in self.models)
+        return replace(own, drivetrain=self.drivetrain, time_scales=self.time_scales, loads=loads, friction=friction)
+
+    @property
+    def frictions(self) -> list[float]:
+        """The coefficient of friction of each mesh by the largest one; 1 without friction."""
+        coefficients = [model.friction_coefficient for model in self.models]
+        largest = max(coefficients)
+        return [each / largest if largest else 1.0 for each in coefficients]
 
     @property
     def slowest(self) -> Model:
