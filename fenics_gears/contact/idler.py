@@ -49,8 +49,8 @@ class Part:
 
 
 def units_of(parts: Sequence[Part]) -> tuple[np.ndarray, np.ndarray] | None:
-    """By what displacements are multiplied, and forces divided, of all nodes now (2 n,) and a step before (2 n before,):
-    normal ones by one, tangential ones by the `friction` of their mesh. None where that is one in all meshes."""
+    """By what displacements of all nodes are multiplied, and forces divided, now (2 n,) and a step before
+    (2 n before,): normal ones by one, tangential ones by the `friction` of their mesh. None where all are one."""
     friction = [part.friction for part in parts]
     if friction == [1.0] * len(parts):
         return None

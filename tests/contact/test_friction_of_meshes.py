@@ -80,7 +80,8 @@ def test_branches_in_time_are_pairs_with_their_own_friction():
     torques = {"one": 200, "other": 300}
     gears = {"one": stage("one", 3.0, (20, 40)), "other": stage("other", 3.0, (20, 30))}
     own = {name: f"[stages.{name}.friction]\ncoefficient = {each}\n" for name, each in coefficients.items()}
-    rest = f"{INERTIA.split('[inertia.load]')[0]}[damping]\nmass_proportional = '300 1/s'\nstiffness_proportional = '1e-6 s'\n[accuracy]\n"
+    rest = INERTIA.split("[inertia.load]")[0]
+    rest += '[damping]\nmass_proportional = "300 1/s"\nstiffness_proportional = "1e-6 s"\n[accuracy]\n'
     rest += 'steps_per_mesh_cycle = 40\nflank_element_size = "0.1 mm"\n'
     outputs = ", ".join(f'{{ on = "{name}.wheel", torque = "{each} N m" }}' for name, each in torques.items())
     text = "".join(gears[name] + own[name] for name in gears)
