@@ -136,9 +136,7 @@ class ShaftSystem(ShaftsAtRest):
         line[within] = yielding.axis[:, :FIVE]
         outside = self.shaft_motions(self.shaft_of(seat), places[~within], ()) @ np.eye(len(self.ends))[:, own]
         line[~within] = (outside @ ends).reshape(-1, *line.shape[1:])
-        moved = self.at_rest.motions_of(self.in_bearings)[:, own] @ ends
-        loads = self.springs @ moved
-        return BentBySeat(yielding.compliance, line, loads.reshape(-1, *line.shape[2:]))
+        return BentBySeat(yielding.compliance, line)
 
     def deflection(self, shaft: ElasticShaft, places: Sequence[float]) -> np.ndarray:
         """Motions (p, 5, k) of places on a shaft's axis (mm from its left end) per coordinate."""

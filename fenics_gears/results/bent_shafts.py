@@ -149,15 +149,7 @@ class BentShafts(MovedAxes):
 
     def curves(self, curves: Mapping[str, np.ndarray], nodes: SideBySide) -> dict[str, np.ndarray]:
         """The same, and loads of the bearings (steps, bearings)."""
-        states = nodes.steps.states[:, 0]
-        of_teeth = []
-        for system in self.drivetrain.systems:
-            of_teeth.append(np.zeros((len(states), len(system.bearing_loads))))
-            for _, each in system.seated:
-                if each.gear in self._seats:
-                    by_teeth = self._seats[each.gear].bearings
-                    of_teeth[-1] += np.tensordot(self._loads(nodes, each.gear), by_teeth, ((1, 2), (1, 2)))
-        on_bearings = self.drivetrain.bearing_loads(states, np.concatenate(of_teeth, axis=1))
+        on_bearings = self.drivetrain.bearing_loads(nodes.steps.states[:, 0])
         loads_of_bearings = dict(zip(LOADS, np.moveaxis(on_bearings, -1, 0)))
         return super().curves(curves, nodes) | loads_of_bearings
 

@@ -91,8 +91,7 @@ class ShaftsOfTrain:
         return [np.linspace(0.0, shaft.length, SHAFT_POINTS) for _, shaft in self._shafts]
 
     def _bearing_loads(self, states: np.ndarray) -> np.ndarray:
-        """Loads (steps, bearings, 5), in space. Faces of trains that give way between supports do so by coordinates,
-        so that teeth add nothing to what these say."""
+        """Loads (steps, bearings, 5), in space."""
         loads = self._drivetrain.bearing_loads(states)
         first = 0
         found = []

@@ -4,7 +4,7 @@ from functools import cache
 
 import numpy as np
 import pytest
-from tests.elastic_shaft_scenes import E_AXLE, ELASTIC, OUTPUT, ROLLING, SKEWED, WHEEL
+from tests.elastic_shaft_scenes import E_AXLE, ELASTIC, INPUT, OUTPUT, PINION, ROLLING, SKEWED, WHEEL
 from tests.trains import (
     bearing_sections,
     bent_ends,
@@ -56,8 +56,9 @@ IN_A_TRAIN = {
 }
 ON_ROLLING = ROLLING + OUTPUT + WHEEL
 BETWEEN = E_AXLE + OUTPUT + WHEEL
-# As thick as the bore; on rolling bearings a pair's face bends by coordinates of its own, as in trains.
-FITTED = BETWEEN.replace("integral", "press fit").replace("35 mm", "27 mm")
+# As thick as the bore, on springs that are alike in all directions.
+FITTED = (INPUT + PINION).replace("114 mm", "58 mm").replace('"85 mm"', '"110 mm"').replace("35 mm", "27 mm")
+FITTED = FITTED.replace("torque_at", 'seat = "press fit"\ntorque_at') + OUTPUT + WHEEL
 
 
 def pair_and_train(helix: float, shafts: str, vibrating: bool) -> tuple[str, str]:
