@@ -38,14 +38,6 @@ class YieldingSeat(NamedTuple):
     ends: np.ndarray
 
 
-class BentBySeat(NamedTuple):
-    """What loads of the teeth (h, 6) do to a shaft by a seat that gives way, beside what its coordinates do: motions of
-    the `teeth` (h, 6, h, 6), and of places on its `line` (p, 5, h, 6); no bearing feels them."""
-
-    teeth: np.ndarray
-    line: np.ndarray
-
-
 @dataclass(frozen=True, eq=False)
 class Seat:
     """The seat of a gear on its shaft, held at both ends of its face by a stiffness of its `supports` (12, 12) over the

@@ -156,9 +156,9 @@ def _balanced(system: ShaftSystem, load: np.ndarray) -> np.ndarray:
     def curvature(scaled: np.ndarray) -> np.ndarray:
         matrix = of_beam.copy()
         matrix[:count, :count] += _of_all(rolling, scale[:count] * scaled[:count])[2]
-        scaled_matrix = scale[:, None] * matrix * scale
+        matrix = scale[:, None] * matrix * scale
         # Within a clearance nothing holds the shaft, and of round-off alone the search finds no end.
-        return scaled_matrix + np.diag(np.full(len(scale), FREE * scaled_matrix.diagonal().max()))
+        return matrix + FREE * matrix.max() * np.eye(len(scale))
 
     in_rolling = np.repeat([each.rolling is not None for each in system.bearings], MOTIONS)
     begun = np.concatenate([(system.bearings_at_rest @ start)[in_rolling], start]) / scale

@@ -43,7 +43,7 @@ def test_each_mesh_obeys_coulombs_law_with_its_own_coefficient(train):
     cycle = row_cycle(model, SilentProgress(), None)
     plain = RowCycle([replace(mesh, friction=1.0) for mesh in cycle.meshes], cycle._compliance)
     blocks: list[Steps] = []
-    Marcher(cycle, model.equations_of_motion).run(6, 1, observe=lambda solved, so_far: blocks.append(solved))
+    Marcher(cycle, model.equations_of_motion).run(4, 1, observe=lambda solved, so_far: blocks.append(solved))
     steps = reduce(Steps.followed_by, blocks)
     of_meshes = [of_mesh(steps, cycle, number) for number in range(len(cycle.meshes))]
     forces = [_all_of([each.records[s].solution.forces for each in of_meshes]) for s in range(len(steps))]

@@ -54,7 +54,8 @@ def test_body_on_its_bore_rigid_seat_and_hub_make_up_one_solid():
     # Motions of the gear's middle, of the face's ends apart, and the twist.
     follows = system.seat(shaft.seats[0]).follows(HEIGHTS)
     carry = np.concatenate([carry[..., :5], follows, carry[..., 5:]], axis=2)
-    seat, line = system.bent_by_seat(shaft.seats[0], HEIGHTS, PLACES)
+    seat = system.seat(shaft.seats[0]).under(HEIGHTS).compliance
+    line = system.bent_by_seat(shaft.seats[0], HEIGHTS, PLACES)
     found = seat + np.einsum("sia,ab,tjb->sitj", carry, rigid, carry)
     gear = np.einsum("ab,tjb->atj", rigid, carry)[:-1]
     line = line + np.einsum("pma,atj->pmtj", system.deflection(shaft, PLACES), gear)
