@@ -140,7 +140,9 @@ pinion = [
 """.replace("ROLLERS", 'elements = "rollers", diameter = "3.8 mm", length = "3.8 mm", pitch_diameter = "15.3 mm"')
 
 
-@pytest.mark.parametrize("torque", ["2e-5 N mm", "1e-6 N m", "1e-4 N m", "1e-2 N m", "1 N m", "1e3 N m", "1e6 N m"])
+@pytest.mark.parametrize(
+    "torque", ["1e-4 N mm", "3e-4 N mm", "1e-6 N m", "1e-4 N m", "1e-2 N m", "1 N m", "1e3 N m", "1e6 N m"]
+)
 def test_any_load_finds_its_place_or_is_refused(torque):
     """Statics: in the place that is found the bearings have the load of the teeth in sum, by their law. Hardly loaded
     rollers may leave the shaft free, in words; the search ends."""
