@@ -17,8 +17,8 @@ from .kinematics import rigid_motions
 def seat_motions(weights: np.ndarray, body: FaceCompliance, gear: Gear, twist: float) -> Addition:
     """Adds the motions of the body's axis to the compliance of slices.
 
-    `weights` (S, h): of its heights in slices. `twist` (rad/mm): of the gear's section along z. Shaft and bearings are
-    alike in all directions, so that only the angle between two sections matters.
+    `weights` (S, h): of its heights in slices. `twist` (rad/mm): of the gear's section along z. The face is alike in
+    all directions, so that only the angle between two sections matters.
     """
     nodes = _of_nodes(body, gear)
     slices = len(weights)

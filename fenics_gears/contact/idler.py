@@ -20,12 +20,14 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Part:
-    """A mesh at a position: now, and how its pairs were a step before; its first node among all, then and now."""
+    """A mesh at a position: now, and how its pairs were a step before; its first node among all, then and now;
+    `friction`: as of `row.MeshOfRow`."""
 
     position: Position
     before: tuple[PairNodes, ...]
     first: int
     first_before: int
+    friction: float = 1.0
 
     @property
     def nodes(self) -> int:
@@ -46,6 +48,17 @@ class Part:
         return slice(self.first_before, self.first_before + self.nodes_before)
 
 
+def units_of(parts: Sequence[Part]) -> tuple[np.ndarray, np.ndarray] | None:
+    """By what displacements of all nodes are multiplied, and forces divided, now (2 n,) and a step before
+    (2 n before,): normal ones by one, tangential ones by the `friction` of their mesh. None where all are one."""
+    friction = [part.friction for part in parts]
+    if friction == [1.0] * len(parts):
+        return None
+    both = ([part.nodes for part in parts], [part.nodes_before for part in parts])
+    now, before = (np.concatenate([np.ones(sum(counts)), np.repeat(friction, counts)]) for counts in both)
+    return now, before
+
+
 class RowCompliance(Protocol):
     """How the contact nodes of meshes yield that stand beside each other; `kept`: memory for what it keeps."""
 
@@ -57,5 +70,5 @@ class RowCompliance(Protocol):
     def of(
         self, cycles: Sequence[Cycle], parts: Sequence[Part], counts: tuple[int, int], steps: float
     ) -> tuple[np.ndarray | FormedRows, np.ndarray | FormedRows | None]:
-        """C (m, m) of all meshes, and with friction E (n, m before), mm/N, after so many steps; `counts`: of nodes now
-        and a step before."""
+        """C (m, m) of all meshes, and with friction E (n, m before), mm/N, after so many steps, in units as of
+        `units_of`; `counts`: of nodes now and a step before."""

@@ -12,7 +12,7 @@ from fenics_gears.system.memory import Kept
 
 from .addresses import form_rows
 from .formed_rows import FormedRows
-from .idler import Part
+from .idler import Part, units_of
 from .joined_rows import AllRows, Coupling, Joined, joined_rows
 from .mesh_cycle import Cycle
 
@@ -45,13 +45,15 @@ class JoinedMeshes:
         couplings = [gear.couplings(cycles, parts, steps) for gear in self._gears]
         now, earlier = ([each for found in couplings for each in found[time]] for time in (0, 1))
         own = [Joined(_rows(part, "compliance"), part.first, part.first) for part in parts]
-        compliance = joined_rows(own, now, (nodes, nodes), (kinds, kinds))
+        units = units_of(parts)
+        of_rows, of_columns = (None, None) if units is None else ((units[0],) * 2, (units[1], units[0][nodes:]))
+        compliance = joined_rows(own, now, (nodes, nodes), (kinds, kinds), of_rows)
         # Its first number is the size that others are measured by.
         form_rows(compliance.address, np.zeros(1, dtype=np.int64))
         if not tangential:
             return compliance, None
         own = [Joined(_rows(part, "previous_compliance"), part.first_before, part.first) for part in parts]
-        return compliance, joined_rows(own, earlier, (nodes_before, nodes), (2, 1), by_columns=True)
+        return compliance, joined_rows(own, earlier, (nodes_before, nodes), (2, 1), of_columns, by_columns=True)
 
 
 def _rows(part: Part, name: str) -> FormedRows | AllRows:

@@ -18,9 +18,10 @@ from .addresses import form_rows, to_flag, to_integer, to_number
 from .formed_rows import FormedRows
 
 # In the table of all rows after what `addresses` names: how many parts and couplings there are, nodes of all rows and
-# columns, forces of a node in either, addresses of the matrix and of the flags that say which rows are formed.
-PARTS, COUPLINGS, ROWS, COLUMNS, KINDS, KINDS_OF_COLUMNS, MATRIX, FORMED = range(3, 11)
-NUMBERS = 11
+# columns, forces of a node in either, addresses of the matrix, of the flags that say which rows are formed, and of the
+# units of rows and of columns, 0 where all are one.
+PARTS, COUPLINGS, ROWS, COLUMNS, KINDS, KINDS_OF_COLUMNS, MATRIX, FORMED, UNITS, UNITS_OF_COLUMNS = range(3, 13)
+NUMBERS = 13
 # Of a part: address of its table, of its matrix, its first node among rows and columns, and how many it has.
 TABLE, OWN, FIRST, COUNT, FIRST_COLUMN, COUNT_OF_COLUMNS = range(6)
 # Of a coupling: the part that responds and the one that is loaded; of the nodes of either addresses of what moves them
@@ -75,10 +76,11 @@ def joined_rows(
     couplings: Sequence[Coupling],
     shape: tuple[int, int],
     kinds: tuple[int, int],
+    units: tuple[np.ndarray, np.ndarray] | None = None,
     by_columns: bool = False,
 ) -> FormedRows:
-    """Rows of all meshes, of so many nodes in rows and columns and forces of each; `by_columns`: rows here are the
-    compliance's columns."""
+    """Rows of all meshes, of so many nodes in rows and columns and forces of each; `units`: by what rows and columns
+    are multiplied; `by_columns`: rows here are the compliance's columns."""
     nodes, columns = shape
     matrix = pages(kinds[0] * nodes, kinds[1] * columns)
     formed = np.zeros(nodes, dtype=bool)
@@ -90,8 +92,9 @@ def joined_rows(
         factors = Factors(nodes, kinds[0] * nodes)
         table[0, 1:3] = factored_solver().address, factors.table.ctypes.data
     table[0, 0] = joined_row_former().address
-    table[0, PARTS:] = len(parts), len(couplings), nodes, columns, *kinds, matrix.ctypes.data, formed.ctypes.data
-    arrays = [matrix, formed]
+    arrays = [matrix, formed, *(units or ())]
+    table[0, PARTS:MATRIX] = len(parts), len(couplings), nodes, columns, *kinds
+    table[0, MATRIX : MATRIX + len(arrays)] = [array.ctypes.data for array in arrays]
     for row, part in zip(table[1:], parts):
         counts = [length // kind for length, kind in zip(part.rows.matrix.shape, kinds)]
         own = part.rows.address, part.rows.matrix.ctypes.data
@@ -102,7 +105,7 @@ def joined_rows(
         of_both = [np.ascontiguousarray(array) for array in (*of_nodes, each.between)]
         row[:2] = each[:2]
         row[MOVED : BETWEEN + 1] = [array.ctypes.data for array in of_both]
-        row[MOTIONS:] = *each.between.shape[2:], *each.between.shape[:2]
+        row[MOTIONS : TEETH_OF_LOADED + 1] = *each.between.shape[2:], *each.between.shape[:2]
         arrays += of_both
     # Nodes of a mesh are in several couplings.
     return FormedRows(matrix, formed, by_columns, table, list({id(each): each for each in arrays}.values()), factors)
@@ -130,6 +133,8 @@ def _form_joined_rows(address, nodes, count):
             for coupling in table[1 + head[PARTS] :]:
                 if coupling[RESPONDING] == number:
                     _put_coupled(head, part, table[1 + coupling[LOADED]], coupling, own)
+            if head[UNITS] != 0:
+                _put_units(head, own)
             formed[own] = True
     return 1
 
@@ -166,6 +171,18 @@ def _put_coupled(head, part, other, coupling, nodes):
             row = matrix[d * head[ROWS] + node]
             for e in range(others):
                 _add_up(moved_of_loaded[e], tooth_of_loaded, of_teeth, row[e * head[COLUMNS] + first :])
+
+
+@njit(cache=True)
+def _put_units(head, nodes):
+    """Multiply rows by their units, and by those of all columns."""
+    matrix = _matrix(head)
+    of_rows = carray(to_number(head[UNITS]), len(matrix))
+    of_columns = carray(to_number(head[UNITS_OF_COLUMNS]), matrix.shape[1])
+    for d in range(head[KINDS]):
+        for node in nodes:
+            row = d * head[ROWS] + node
+            matrix[row] *= of_rows[row] * of_columns
 
 
 @njit(cache=True, fastmath={"reassoc"})

@@ -3,6 +3,9 @@ train. Compliance is summed over bodies, so that meshes in which the same gear s
 
 A mesh is described in a frame in which its pinion turns counter-clockwise. From one mesh to the next along a row the
 frame is the mirror image, in which the other flanks of the gear between them are its drive flanks.
+
+A mesh with a coefficient of friction s mu has its tangential displacements here times s and its tangential forces by s:
+with the one coefficient mu they obey the same law, and do the same work.
 """
 
 from __future__ import annotations
@@ -16,7 +19,7 @@ import numpy as np
 
 from fenics_gears.system.memory import Kept
 
-from .idler import Part, RowCompliance
+from .idler import Part, RowCompliance, units_of
 from .mesh import Mesh
 from .mesh_cycle import Cycle, Deviation, Gaps
 from .mixed_form import StepEquations
@@ -61,13 +64,14 @@ class MeshOfRow:
     """A mesh of a train: its `cycle` over the coordinates (l,) of its own two gears, and how these follow (l, k) from
     those of the train; no contact moves the last `modes` of these. `offset` (l,), mm: where its own coordinates are as
     nothing moves, none unless given. `deviations`: gaps that differ from mesh cycle to mesh cycle; its cycle has none
-    of these."""
+    of these. `friction`: its coefficient, by that of the equations of all meshes."""
 
     cycle: Cycle
     coordinates: np.ndarray
     offset: np.ndarray | None = None
     modes: int = 0
     deviations: tuple[Deviation, ...] = ()
+    friction: float = 1.0
 
     def with_gaps_of(self, offset: np.ndarray | None, gaps_of: GapsOf) -> MeshOfRow:
         """The same operators with another offset and other gaps."""
@@ -203,7 +207,8 @@ class RowCycle(Cycle):
         first = 0
         first_before = 0
         for each in self.meshes:
-            parts.append(Part(each.cycle.between(step, before), _before(each.cycle, step, before), first, first_before))
+            own = each.cycle.between(step, before), _before(each.cycle, step, before)
+            parts.append(Part(*own, first, first_before, each.friction))
             first += parts[-1].nodes
             first_before += parts[-1].nodes_before
         cycles = [each.cycle for each in self.meshes]
@@ -217,6 +222,11 @@ class RowCycle(Cycle):
             rigid_slip = np.concatenate([each.rigid_slip for each in operators])
             stood = [each.stored_jacobians[1] @ mesh.moving for each, mesh in zip(operators, self.meshes)]
             jacobian_before = np.concatenate(stood)
+            units = units_of(parts)
+            if units is not None:
+                jacobian *= units[0][:, None]
+                rigid_slip *= units[0][first:]
+                jacobian_before *= units[0][first:, None]
         operator = ContactOperator(
             pairs=tuple(pair for each in operators for pair in each.pairs),
             sides=operators[0].sides,

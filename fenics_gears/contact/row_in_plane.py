@@ -13,7 +13,7 @@ from fenics_gears.elasticity.compliance import BothFlanksCompliance, FlankCompli
 from fenics_gears.geometry.gear_train import SharedGear
 from fenics_gears.system.memory import Kept
 
-from .idler import Part
+from .idler import Part, units_of
 from .mesh_cycle import Cycle
 from .pairing import Blocks, FlankTable, Numbered, add_products
 
@@ -110,6 +110,11 @@ class RowInPlane:
             by_kind[:, one.own, :, other.own] += coupling.now.transpose(2, 3, 0, 1)
             for (by, of), found in zip(((one, other), (other, one)), coupling.before):
                 stood[:, by.own_before, of.own] += found
+        units = units_of(parts)
+        if units is not None:
+            now, then = units
+            compliance *= np.outer(now, now)
+            before *= np.outer(then, now[nodes:])
         return compliance, before.T if tangential else None
 
     def _through(self, gear: GearInPlane, blocks: Blocks, meshes: list[tuple[Cycle, Part]], steps: float) -> _Coupling:

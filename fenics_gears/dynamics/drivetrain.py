@@ -187,11 +187,10 @@ class Drivetrain:
         """Several coordinates (..., n) of states, as `value` gives each."""
         return np.stack([self.value(states, name) for name in names], axis=-1)
 
-    def bearing_loads(self, states: np.ndarray, of_teeth: np.ndarray | float = 0.0) -> np.ndarray:
-        """Loads (steps, bearings, 5), N and N mm, of shafts that bend on their bearings, of states (steps, k); what
-        teeth add to them where seats give way, before bearings roll (steps, 5 bearings)."""
+    def bearing_loads(self, states: np.ndarray) -> np.ndarray:
+        """Loads (steps, bearings, 5), N and N mm, of shafts that bend on their bearings, of states (steps, k)."""
         springs = [self.values(states, system.coordinates) @ system.bearing_loads.T for system in self.systems]
-        loads = (np.concatenate(springs, axis=1) + of_teeth).reshape(len(states), self.bearings, -1)
+        loads = np.concatenate(springs, axis=1).reshape(len(states), self.bearings, -1)
         return loads if self.rolling is None else self.rolling.loads(states, loads)
 
 

@@ -101,8 +101,7 @@ class SeatedGear:
 class ElasticShaft:
     """A shaft by its `name`, that of its gear in a pair: its `sections` of one `material` (Young's modulus, N/mm^2,
     Poisson's ratio), its gears in their `seats` from left to right, where the torque is coupled, mm from the left end,
-    None where it is not, and the bearings. `in_housing`: whether the bearings are in a housing that yields.
-    `faces_apart`: whether what ends of faces that yield do apart is in coordinates, also on bearings that are alike.
+    None where it is not, and the bearings.
 
     Of a shaft that vibrates: the sections that are `heavy`, where not all that bend are, its `density`, N s^2/mm^4, and
     the frequency, Hz, `up_to` which it has modes of its own.
@@ -114,8 +113,6 @@ class ElasticShaft:
     seats: tuple[SeatedGear, ...]
     torque_at: float | None = None
     bearings: tuple[Bearing, ...] = ()
-    in_housing: bool = False
-    faces_apart: bool = False
     heavy: tuple[ShaftSection, ...] | None = None
     density: float = 0.0
     up_to: float = inf
@@ -138,21 +135,14 @@ class ElasticShaft:
 
     def of_face(self, seat: SeatedGear) -> tuple[str, ...]:
         """Names of the coordinates by which the ends of a gear's face move apart: where the seat gives way between
-        what holds it on both sides, unless that is alike in all directions across the axis, since what it does then
-        depends on the direction or on other gears; elsewhere it is part of the flanks' compliance."""
+        what holds it on both sides; elsewhere what it does is part of the flanks' compliance."""
         others = [each for each in self.seats if each.gear != seat.gear]
         holding = [*(each.at for each in self.bearings), *(each.at for each in others)]
         if others and self.torque_at is not None:
             holding.append(self.torque_at)
         if not seat.yields_within or len({place > seat.at for place in holding}) < 2:
             return ()
-        alike = (
-            not self.faces_apart
-            and not self.in_housing
-            and not others
-            and all(_is_alike(each) for each in self.bearings)
-        )
-        return () if alike else tuple(f"face_{motion}_{seat.gear}" for motion in SHAFT_MOTIONS)
+        return tuple(f"face_{motion}_{seat.gear}" for motion in SHAFT_MOTIONS)
 
     @property
     def mass_of_all(self) -> float:
@@ -250,11 +240,6 @@ class ElasticShaft:
     def in_bearing(self, number: int) -> tuple[str, ...]:
         """Names (5,) of the motions in a rolling bearing."""
         return motions_of(self.name, f"bearing {number + 1}")[:FIVE]
-
-
-def _is_alike(bearing: Bearing) -> bool:
-    """Whether a bearing is alike in all directions across the axis."""
-    return bearing.stiffness_matrix is None and bearing.rolling is None
 
 
 def in_series(first: np.ndarray, second: np.ndarray) -> np.ndarray:

@@ -5,8 +5,9 @@ parts of a rigid gear, C = R K^-1 R^T + D: K = (R^T C^-1 R)^-1 is the stiffness 
 which the drivetrain has in any case, and D >= 0 what is left (Schur's complement the other way round). Under D the gear
 moves so that what holds it beside the face feels neither force nor moment of it in sum; the split is exact.
 
-D is what the face does between its ends, both held, and what it does as these move apart. Where the latter is alike in
-all directions both join the compliance of the flanks; elsewhere the ends' motions apart are coordinates.
+D is what the face does between its ends, both held, which is alike in all directions and joins the compliance of the
+flanks, and what it does as these move apart: coordinates. Where all that holds the shaft is on one side of the face,
+the other end is free, and both join the flanks.
 """
 
 from __future__ import annotations
@@ -35,15 +36,6 @@ class YieldingSeat(NamedTuple):
     compliance: np.ndarray
     axis: np.ndarray
     ends: np.ndarray
-
-
-class BentBySeat(NamedTuple):
-    """What loads of the teeth (h, 6) do to a shaft by a seat that gives way, beside what its coordinates do: motions of
-    the `teeth` (h, 6, h, 6), and of places on its `line` (p, 5, h, 6); loads on its `bearings` (5 b, h, 6)."""
-
-    teeth: np.ndarray
-    line: np.ndarray
-    bearings: np.ndarray
 
 
 @dataclass(frozen=True, eq=False)

@@ -29,10 +29,11 @@ if TYPE_CHECKING:
 SLICES = 40
 # Lever arm, mm, that makes tilts comparable with displacements; mm/N that every bearing yields besides in the search of
 # a minimum; parts of the load that the search may leave, and that Newton's method may, with its largest number of
-# iterations.
+# iterations. Part of the largest stiffness that the search sees in all directions.
 ARM = 30.0
 YIELDING = 1e-9
 NEAR = 1e-6
+FREE = 1e-12
 LEFT = 1e-11
 POLISHED = 30
 
@@ -155,7 +156,9 @@ def _balanced(system: ShaftSystem, load: np.ndarray) -> np.ndarray:
     def curvature(scaled: np.ndarray) -> np.ndarray:
         matrix = of_beam.copy()
         matrix[:count, :count] += _of_all(rolling, scale[:count] * scaled[:count])[2]
-        return scale[:, None] * matrix * scale
+        matrix = scale[:, None] * matrix * scale
+        # Within a clearance nothing holds the shaft, and of round-off alone the search finds no end.
+        return matrix + FREE * matrix.max() * np.eye(len(scale))
 
     in_rolling = np.repeat([each.rolling is not None for each in system.bearings], MOTIONS)
     begun = np.concatenate([(system.bearings_at_rest @ start)[in_rolling], start]) / scale

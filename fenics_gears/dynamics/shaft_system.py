@@ -17,7 +17,6 @@ from scipy.linalg import block_diag, eigh
 
 from .beam import Beam
 from .elastic_shaft import FIVE, ElasticShaft, SeatedGear
-from .elastic_shaft_seat import BentBySeat
 from .shaft_elements import SIX, Assembly, Element, Springs, carried, motions_of
 from .shafts_at_rest import ShaftsAtRest
 
@@ -125,9 +124,10 @@ class ShaftSystem(ShaftsAtRest):
             loads |= dict(zip(each.motions, self._loads_on(each)))
         return np.array([loads[name] for name in self.in_bearings])
 
-    def bent_by_seat(self, seat: SeatedGear, heights: np.ndarray, places: np.ndarray) -> BentBySeat:
-        """A shaft whose gear is loaded at `heights` (h,), mm from its middle, and `places` (p,), mm from the left end:
-        what is beside the face follows its ends."""
+    def bent_by_seat(self, seat: SeatedGear, heights: np.ndarray, places: np.ndarray) -> np.ndarray:
+        """Motions (p, 5, h, 6) of places (p,), mm from the left end, by loads of the teeth at `heights` (h,), mm from
+        the gear's middle, where the seat gives way, beside what coordinates do: what is beside the face follows its
+        ends. No bearing feels them."""
         within = (places > seat.ends[0]) & (places < seat.ends[1])
         yielding = self.seat(seat).under(heights, places[within] - seat.at)
         own, carry = self.face(seat)
@@ -136,9 +136,7 @@ class ShaftSystem(ShaftsAtRest):
         line[within] = yielding.axis[:, :FIVE]
         outside = self.shaft_motions(self.shaft_of(seat), places[~within], ()) @ np.eye(len(self.ends))[:, own]
         line[~within] = (outside @ ends).reshape(-1, *line.shape[1:])
-        moved = self.at_rest.motions_of(self.in_bearings)[:, own] @ ends
-        loads = self.springs @ moved
-        return BentBySeat(yielding.compliance, line, loads.reshape(-1, *line.shape[2:]))
+        return line
 
     def deflection(self, shaft: ElasticShaft, places: Sequence[float]) -> np.ndarray:
         """Motions (p, 5, k) of places on a shaft's axis (mm from its left end) per coordinate."""

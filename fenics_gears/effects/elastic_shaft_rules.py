@@ -150,7 +150,6 @@ def elastic_shaft(scene: Any, pair: Any, gear: str) -> ElasticShaft:
     bearings = scene.bearings.each_of(gear)
     elastic = ElasticShaft(
         gear, shaft.sections, constants, (SeatedGear(gear, shaft.gear_at, width),), shaft.torque_at, bearings,
-        in_housing=shaft.housing is not None or scene.shafts.housing is not None,
     )  # fmt: skip
     return seated(elastic, 0, shaft.seat, getattr(pair, gear), material)
 

@@ -91,7 +91,7 @@ class RowModel(OfMeshes):
 
     @property
     def equations_of_motion(self) -> EquationsOfMotion:
-        """Those of the first mesh, with the drivetrain of all."""
+        """Those of the first mesh, with the drivetrain of all and the largest coefficient of friction."""
         loads: tuple[VaryingLoad, ...] = ()
         ramp = self.ramp
         if ramp is not None:
@@ -100,7 +100,18 @@ class RowModel(OfMeshes):
             if self.drivetrain.frame is not None:
                 loads = (*loads, centrifugal_forces(ramp, self.drivetrain.frame.load))
         own = self.models[0].equations_of_motion
-        return replace(own, drivetrain=self.drivetrain, time_scales=self.time_scales, loads=loads)
+        own = replace(own, drivetrain=self.drivetrain, time_scales=self.time_scales, loads=loads)
+        return replace(own, friction=self.friction)
+
+    @property
+    def friction(self) -> float:
+        """The largest coefficient of friction; 0 without friction."""
+        return max(model.friction_coefficient for model in self.models)
+
+    @property
+    def frictions(self) -> list[float]:
+        """The coefficient of each mesh by the largest one; 1 without friction."""
+        return [model.friction_coefficient / self.friction if self.friction else 1.0 for model in self.models]
 
     @property
     def slowest(self) -> Model:

@@ -209,10 +209,10 @@ def bent_of(meshes: Sequence[MeshOfScene], shafts: TrainShafts) -> BentShafts | 
 def check_alike(meshes: Sequence[MeshOfScene], models: Sequence[Model]) -> None:
     """Raise SceneError for what meshes that move together do not have yet."""
     check_shared(layout_of(meshes), models, gear_names(meshes), [mesh.name for mesh in meshes])
-    coefficients = {model.friction_coefficient for model in models}
-    if len(coefficients) > 1:
+    frictional = [model.scene.friction is not None for model in models]
+    if any(frictional) and not all(frictional):
+        bare = next(mesh.name for mesh, own in zip(meshes, frictional) if not own)
         raise SceneError(
-            "friction: its formula gives each mesh another coefficient"
-            f" ({', '.join(f'{each:.4g}' for each in sorted(coefficients))}), which is not yet computed where meshes"
-            f" move together. Allowed: one friction.coefficient. {NOTHING_DONE}"
+            f"friction: {bare} has none, beside meshes with friction that move together with it. Allowed: a coefficient"
+            f" or a formula for each of them, or [friction] for the whole train. {NOTHING_DONE}"
         )

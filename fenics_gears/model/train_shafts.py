@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
 from itertools import pairwise
 from math import inf, pi
 from typing import TYPE_CHECKING
@@ -94,8 +93,7 @@ def _in_housings(
             *(turned_motions(axes[shaft.name], SPACE)[:FIVE, :FIVE] for shaft in own for _ in shaft.bearings)
         )
         stiffness = turn.T @ np.array(stiffness_of_seats(housing)) @ turn
-        housed = tuple(replace(shaft, in_housing=True) for shaft in own)
-        system = ShaftSystem(housed, tuple(map(tuple, stiffness.tolist())))
+        system = ShaftSystem(own, tuple(map(tuple, stiffness.tolist())))
         if wrong := list(bearings_hold(system)):
             raise SceneError(f"{_in_words(' '.join(wrong), system)}. {NOTHING_DONE}")
         yield system
@@ -170,7 +168,7 @@ def _shaft(bent: BentShaft, meshes: Sequence[MeshOfScene], up_to: float) -> Elas
         density = own.material.density or scene.inertia.of(SIDES[side]).density or 0.0
     shaft = ElasticShaft(
         bent.name, own.sections, constants, tuple(seats), own.torque_at, own.bearings, density=density,
-        up_to=up_to if density else inf, faces_apart=True,
+        up_to=up_to if density else inf,
     )  # fmt: skip
     kinds = dict(zip(own.carries, own.seats or ()))
     for number, seat in enumerate(seats):

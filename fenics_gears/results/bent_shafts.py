@@ -8,7 +8,6 @@ import xarray as xr
 
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.dynamics.elastic_shaft import MOTIONS, NUMBERS, SeatedGear
-from fenics_gears.dynamics.elastic_shaft_seat import BentBySeat
 from fenics_gears.dynamics.frequencies import vibrations
 from fenics_gears.dynamics.shaft_elements import SIX, carried
 from fenics_gears.dynamics.shaft_system import ShaftSystem
@@ -149,15 +148,7 @@ class BentShafts(MovedAxes):
 
     def curves(self, curves: Mapping[str, np.ndarray], nodes: SideBySide) -> dict[str, np.ndarray]:
         """The same, and loads of the bearings (steps, bearings)."""
-        states = nodes.steps.states[:, 0]
-        of_teeth = []
-        for system in self.drivetrain.systems:
-            of_teeth.append(np.zeros((len(states), len(system.bearing_loads))))
-            for _, each in system.seated:
-                if each.gear in self._seats:
-                    by_teeth = self._seats[each.gear].bearings
-                    of_teeth[-1] += np.tensordot(self._loads(nodes, each.gear), by_teeth, ((1, 2), (1, 2)))
-        on_bearings = self.drivetrain.bearing_loads(states, np.concatenate(of_teeth, axis=1))
+        on_bearings = self.drivetrain.bearing_loads(nodes.steps.states[:, 0])
         loads_of_bearings = dict(zip(LOADS, np.moveaxis(on_bearings, -1, 0)))
         return super().curves(curves, nodes) | loads_of_bearings
 
@@ -170,7 +161,7 @@ class BentShafts(MovedAxes):
             for _, each in system.seated:
                 lines = np.einsum("pmn,sn->msp", self._lines[each.gear][:, :2], values)
                 if each.gear in self._seats:
-                    line = self._seats[each.gear].line[:, :2]
+                    line = self._seats[each.gear][:, :2]
                     lines += np.einsum("pmzi,szi->msp", line, self._loads(nodes, each.gear), optimize=True)
                 deflection[:, :, GEARS.index(each.gear)] = lines
         return super().fields(nodes) | {"shaft_deflection_x": deflection[0], "shaft_deflection_y": deflection[1]}
@@ -197,11 +188,10 @@ class BentShafts(MovedAxes):
         numbers = {"largest_bearing_force": float(forces.max())}
         return super().numbers(counted, known) | numbers | self._rolling_elements(counted) | self._vibrations(counted)
 
-    def _seat(self, system: ShaftSystem, seat: SeatedGear) -> BentBySeat:
-        """Response of a seat to loads (S, 6) in the slices of the face, at their own heights."""
-        bent = system.bent_by_seat(seat, self._heights(seat.gear), self.points(system.shaft_of(seat).length))
-        slices = len(self.face.positions)
-        return BentBySeat(*(each.reshape(*each.shape[:-2], 2, slices, SIX).mean(axis=-3) for each in bent))
+    def _seat(self, system: ShaftSystem, seat: SeatedGear) -> np.ndarray:
+        """Motions (p, 5, S, 6) of the shaft's line by loads in the slices of the face, at their own heights."""
+        line = system.bent_by_seat(seat, self._heights(seat.gear), self.points(system.shaft_of(seat).length))
+        return line.reshape(*line.shape[:2], 2, -1, SIX).mean(axis=2)
 
     def _vibrations(self, counted: xr.Dataset) -> dict[str, str]:
         """Natural frequencies with the mesh as it was, a line each; nothing without inertia or contact."""

@@ -116,6 +116,8 @@ class RowResult:
             "newton_iterations_total": int(counted["newton_iterations"][1:].sum()),
             "steps": recorder.steps - 1,
         }
+        if model.scene.friction is not None:
+            found["friction_coefficient"] = model.friction_coefficient
         return _finite(found)
 
     def _driving_work(self, steps: int) -> float:

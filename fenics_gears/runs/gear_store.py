@@ -91,7 +91,10 @@ class GearStore:
         of_meshes = [coordinates.tobytes() for coordinates, _ in row.placed]
         offsets = [offset for _, offset in row.placed]
         said = [(each.tobytes(), _key_of_gaps(model)) for each, model in zip(offsets, row.models)]
-        key = tuple(map(operators_key, row.models)), tuple(row.layout.phases), tuple(shared), tuple(of_meshes)
+        key = (
+            tuple(map(operators_key, row.models)), tuple(row.layout.phases), tuple(shared), tuple(of_meshes),
+            tuple(row.frictions),
+        )  # fmt: skip
         if self._row is None or self._row[0] != key:
             # Frees memory before the next is made.
             self._row = None

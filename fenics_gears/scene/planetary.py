@@ -28,7 +28,7 @@ from .planetary_run_out import pitches_of, run_outs_of, with_pitches, with_run_o
 from .planetary_schema import OF_THE_FACE, OF_THE_STEP, PlanetaryText, gears_in, meshes_in
 from .train_loads import TrainLoad, TrainMotion
 from .train_mesh import MeshOfScene, gear_names, layout_of
-from .train_pair import STAGES, MistakesOfStage, Placed, check_together, pair_of, pair_scene
+from .train_pair import STAGES, MistakesOfStage, Placed, check_together, motion_put_in, pair_of, pair_scene
 from .train_ramp import checked_ramp
 from .train_rules import TrainSections, load_and_motion
 from .train_shafts import TrainShafts
@@ -129,6 +129,7 @@ def _scene(tree: Tree, own: OfSet, content: Tree, gears: Mapping[str, Any], sour
         **of_mesh,
         "load": {"wheel_torque": "1 N m"},
     }
+    sections |= motion_put_in(sections, tree)
     name = f"{own.stage} {own.mesh}"
     try:
         return pair_scene(sections, name, f"{source}, stage {own.stage}", folder, Placed(own.place, own.words))

@@ -18,6 +18,10 @@ from .data import Scene
 from .parsing import parsed, values_of
 
 STAGES = "stages"
+SPEED_OF_PAIR = 'motion.pinion_speed, such as "1500 rpm", or motion.mesh_frequency'
+SPEED_OF_TRAIN = 'motion.input_speed, such as "1500 rpm"'
+# Put in for speed and length of the train's run, which are not known yet.
+ANY_MOTION = {"pinion_speed": "1 rpm", "mesh_cycles": 1}
 
 
 class MistakesOfStage(SceneError):
@@ -56,6 +60,7 @@ class Placed(NamedTuple):
         message = self.words(problem.message)
         for place in (*(("gears", gear) for gear in GEARS), ("gears",)):
             message = message.replace(f"[{'.'.join(place)}", f"[{'.'.join(self.field(place))}")
+        message = message.replace(SPEED_OF_PAIR, SPEED_OF_TRAIN)
         return replace(problem, path=self.field(problem.path), message=message)
 
 
@@ -71,6 +76,16 @@ def pair_scene(sections: Mapping[str, Any], name: str, source: str, folder: Path
     found = Scene(**values)
     found.__dict__["text"] = text
     return found
+
+
+def motion_put_in(sections: Mapping[str, Any], tree: Mapping[str, Any]) -> dict[str, Any]:
+    """The motion of a mesh with these sections, where its masses or a formula of friction ask for one that the train
+    has."""
+    friction = sections.get("friction")
+    formula = isinstance(friction, Mapping) and "formula" in friction
+    if "inertia" in sections or formula and {"input_speed", "speed"} & {*tree.get("motion", {})}:
+        return {"motion": ANY_MOTION}
+    return {}
 
 
 def pair_of(scene: Scene, label: str, words: Callable[[str], str] = str) -> GearPair:

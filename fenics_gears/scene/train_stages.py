@@ -19,7 +19,7 @@ from .data import Scene
 from .planetary_run_out import in_all_meshes
 from .train_layout import check_cut_alike
 from .train_mesh import MeshOfScene
-from .train_pair import MistakesOfStage, Placed, check_together, in_stage, pair_of, pair_scene
+from .train_pair import MistakesOfStage, Placed, check_together, in_stage, motion_put_in, pair_of, pair_scene
 from .train_pair_shafts import in_train, in_words_of_train, of_pair, place_of, sections_of_pair
 from .train_rules import OF_A_STAGE, SHARED, TrainSections
 from .train_shaft import BentShaft
@@ -94,9 +94,9 @@ def _scene_of(
     shared = {name: tree[name] for name in SHARED if name in tree}
     sections = {"gears": fields | given, **shared, **inner, "load": {"wheel_torque": "1 N m"}}
     if "inertia" in sections:
-        # The load is on the last shaft; speed and length of the run are put in for the train's.
+        # The load is on the last shaft.
         sections["inertia"] = {each: value for each, value in sections["inertia"].items() if each != "load"}
-        sections["motion"] = {"pinion_speed": "1 rpm", "mesh_cycles": 1}
+    sections |= motion_put_in(sections, tree)
     on_shafts = of_pair(mesh.gears, bent)
     sections |= sections_of_pair(on_shafts, tree, sections)
     places = {name: at[2:] for name, at in zip(GEARS, mesh.places)}

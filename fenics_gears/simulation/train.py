@@ -4,6 +4,7 @@ shafts have several paths, masses, bearings or twist."""
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
 from functools import partial
 from types import ModuleType
 from typing import TYPE_CHECKING
@@ -89,7 +90,8 @@ def row_cycle(row: RowModel, progress: Progress, cache: Cache) -> RowCycle:
     for number, of_mesh in enumerate(row.placed):
         like = _like(row, number, bodies)
         cycle = _cycle(row, number, bodies, None if like is None else meshes[like].cycle)
-        meshes.append(_mesh(row.models[number], cycle, of_mesh, row.drivetrain.modes))
+        mesh = _mesh(row.models[number], cycle, of_mesh, row.drivetrain.modes)
+        meshes.append(replace(mesh, friction=row.frictions[number]))
     if row.over_face:
         return RowCycle(meshes, _over_face().joined(row, bodies, [mesh.cycle for mesh in meshes]))
     coupled = [
@@ -176,7 +178,12 @@ def of_mesh(steps: Steps, cycle: RowCycle, number: int) -> Steps:
         both = np.concatenate([normal, normal + np.repeat(np.diff(steps.starts), counts)])
         forces = step_by_step(both, np.cumsum(counts) - counts, counts)
     states = steps.states @ mesh.coordinates.T
+    own_forces = steps.forces[forces]
     displacement = steps.displacement[forces]
+    if mesh.friction != 1.0:
+        units = step_by_step(np.repeat([1.0, mesh.friction], counts.sum()), np.cumsum(counts) - counts, counts)
+        own_forces *= units
+        displacement /= units
     if mesh.offset is not None and mesh.offset.any():
         # Of its own gears the second one on a shaft stands ahead, and its flanks have the gaps of its pair.
         states[:, 0] += mesh.offset
@@ -185,6 +192,6 @@ def of_mesh(steps: Steps, cycle: RowCycle, number: int) -> Steps:
             start = steps.kinds * (end - count)
             displacement[start : start + count] += position.operator.jacobian[:count] @ mesh.offset
     return Steps(
-        steps.numbers, positions, states, steps.forces[forces], displacement, steps.status[nodes], steps.iterations,
+        steps.numbers, positions, states, own_forces, displacement, steps.status[nodes], steps.iterations,
         steps.methods,
     )  # fmt: skip

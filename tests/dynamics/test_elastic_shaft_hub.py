@@ -51,11 +51,15 @@ def test_body_on_its_bore_rigid_seat_and_hub_make_up_one_solid():
     system = alone(shaft)
     rigid = block_diag(np.linalg.inv(system.stiffness), 1.0 / system.torsional_stiffness(shaft))
     carry = np.array([carried(z) for z in HEIGHTS])
-    seat, line, bearings = system.bent_by_seat(shaft.seats[0], HEIGHTS, PLACES)
+    # Motions of the gear's middle, of the face's ends apart, and the twist.
+    follows = system.seat(shaft.seats[0]).follows(HEIGHTS)
+    carry = np.concatenate([carry[..., :5], follows, carry[..., 5:]], axis=2)
+    seat = system.seat(shaft.seats[0]).under(HEIGHTS).compliance
+    line = system.bent_by_seat(shaft.seats[0], HEIGHTS, PLACES)
     found = seat + np.einsum("sia,ab,tjb->sitj", carry, rigid, carry)
-    gear = np.einsum("ab,tjb->atj", rigid, carry)[:5]
+    gear = np.einsum("ab,tjb->atj", rigid, carry)[:-1]
     line = line + np.einsum("pma,atj->pmtj", system.deflection(shaft, PLACES), gear)
-    bearings = (bearings + np.einsum("ba,atj->btj", system.bearing_loads, gear)).reshape(2, 5, len(HEIGHTS), 6)
+    bearings = np.einsum("ba,atj->btj", system.bearing_loads, gear).reshape(2, 5, len(HEIGHTS), 6)
     for order, motions in ((1, [0, 4]), (0, [2, 5])):
         stiffness, rim = whole.stiffness(order), whole.of_circles(OUTER, HEIGHTS, order)
         left, right = (whole.of_section(end, BORE, order) for end in (-AT, LENGTH - AT))

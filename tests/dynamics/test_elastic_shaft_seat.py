@@ -136,7 +136,8 @@ def test_an_overhung_seat_gives_way_alike_whatever_the_bearings():
 
 @pytest.mark.parametrize(("helix", "shafts"), [(0.0, CUT), (15.0, CUT), (15.0, PRESSED)])
 def test_flanks_give_way_as_their_rows_say(helix, shafts):
-    """Identity: the compliance of contact nodes grows by J D J^T, J the rows by which gears move them."""
+    """Identity: contact nodes give way by J D J^T more, J the rows by which gears move them, with what the coordinates
+    of faces do."""
     accuracy = "slices = 6\ncontact_nodes = 9\nsteps_per_mesh_cycle = 4"
     models = [
         model_of(helical_scene(each + "[friction]\ncoefficient = 0.1\n", helix=helix, accuracy=accuracy))
@@ -156,10 +157,19 @@ def test_flanks_give_way_as_their_rows_say(helix, shafts):
             rows[:, 3] += z * rows[:, 1]
             rows[:, 4] -= z * rows[:, 0]
             weights = slice_averages(heights, 2, model.face.positions, model.face.widths)
-            seat = np.einsum("sh,hikj,tk->sitj", weights, seat_compliance(gear, heights, system), weights)
+            own = system.seat(gear.seats[0])
+            seat = np.einsum("sh,hikj,tk->sitj", weights, own.under(heights).compliance, weights)
+            if gear.of_face(gear.seats[0]):
+                # Of the coordinates the mean over each slice, by more points than are taken.
+                points, share = np.polynomial.legendre.leggauss(5)
+                at = model.face.positions[:, None] + 0.5 * model.face.widths[:, None] * points
+                follows = np.einsum("p,spij->sij", 0.5 * share, own.follows(at.ravel()).reshape(*at.shape, 6, 6))
+                seat += np.einsum("sia,ab,tjb->sitj", follows, np.linalg.inv(own.stiffness_apart), follows)
             places = np.tile(of_slice, 2)
             added = added + np.einsum("mi,minj,nj->mn", rows, seat[places][:, :, places], rows)
         found = operator.compliance - rigid.position(step).operator.compliance
+        apart = [place for place, name in enumerate(model.drivetrain.coordinates) if name.startswith("face_")]
+        found += operator.jacobian[:, apart] @ model.drivetrain.bending_faces[1] @ operator.jacobian[:, apart].T
         # Rows are of the point of contact, to which nodes beside it have other arms.
         offsets = np.concatenate([pair.offsets for pair in operator.pairs])
         middle = np.tile(np.abs(offsets) < 1e-9, 2)

@@ -111,7 +111,7 @@ OTHER = ElasticShaft(
     150.0,
     (Bearing(20.0, 2e5, 1e5), Bearing(110.0, 4e5)),
 )
-PAIR = (replace(shaft(STEPS, 55.0, ON_THREE[:2]), in_housing=True), replace(OTHER, in_housing=True))
+PAIR = (shaft(STEPS, 55.0, ON_THREE[:2]), OTHER)
 
 
 def coupled(seed=3, size=20):

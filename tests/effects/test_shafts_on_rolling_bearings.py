@@ -6,7 +6,7 @@ from tests.elastic_shaft_scenes import E_AXLE, FEW, OUTPUT, ROLLING, VIBRATING, 
 from tests.hard_cases.invariants import cycle_of, finished_helical_run
 from tests.helical import helical_scene, on_stand_in_bodies
 
-from fenics_gears import model_of
+from fenics_gears import SceneError, model_of, scene_from_text
 from fenics_gears.contact.errors import ContactNotConverged
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.dynamics.rolling_bearing import reaction
@@ -114,3 +114,49 @@ def test_bearings_that_find_no_balance_leave_the_steps_before(monkeypatch):
     model = model_of(helical_scene(ROLLING + OUTPUT + WHEEL, offset=2.0, accuracy=FEW))
     with pytest.raises(ContactNotConverged, match="rolling bearings: .* still change by .* preload"):
         simulate(model, preparation=lambda *_: ((), cycle_of(model, on_stand_in_bodies(model))))
+
+
+LIGHT = """
+[gears]
+module = "1 mm"
+pressure_angle = "17.5 deg"
+material = "tin bronze"
+pinion = { teeth = 48, profile_shift = 0, bore_diameter = "9.6 mm", face_width = "1.2 mm" }
+wheel = { teeth = 26, profile_shift = 0.8, bore_diameter = "4.6 mm", face_width = "2.2 mm" }
+[load]
+wheel_torque = "TORQUE"
+[misalignment]
+in_plane = "0 um"
+[shafts.input]
+sections = [{ length = "11.2 mm", diameter = "9.6 mm" }]
+gear_at = "5.6 mm"
+seat = "integral"
+torque_at = "0 mm"
+[bearings]
+pinion = [
+    { at = "0.9 mm", axial_stiffness = "17 N/um", rolling = { number = 5, ROLLERS } },
+    { at = "10.3 mm", axial_stiffness = "17 N/um", rolling = { number = 10, clearance = "3.8 um", ROLLERS } },
+]
+""".replace("ROLLERS", 'elements = "rollers", diameter = "3.8 mm", length = "3.8 mm", pitch_diameter = "15.3 mm"')
+
+
+@pytest.mark.parametrize(
+    "torque", ["1e-4 N mm", "3e-4 N mm", "1e-6 N m", "1e-4 N m", "1e-2 N m", "1 N m", "1e3 N m", "1e6 N m"]
+)
+def test_any_load_finds_its_place_or_is_refused(torque):
+    """Statics: in the place that is found the bearings have the load of the teeth in sum, by their law. Hardly loaded
+    rollers may leave the shaft free, in words; the search ends."""
+    scene = scene_from_text(LIGHT.replace("TORQUE", torque))
+    try:
+        train = model_of(scene).drivetrain
+    except SceneError as refused:
+        assert "N mm" in torque or float(torque.split()[0]) < 1e-5, str(refused)
+        assert "bearings.pinion" in str(refused) and "rolling elements" in str(refused)
+        return
+    shaft, system = train.elastic[0], train.systems[0]
+    motions = train.rolling.reference[[train.coordinates.index(name) for name in shaft.in_rolling]].reshape(2, 5)
+    laws = [reaction(each.rolling, of).loads for each, of in zip(shaft.bearings, motions)]
+    for each, loads, of in zip(shaft.bearings, laws, motions):
+        loads[2] += each.axial_stiffness * of[2]
+    load = np.array(system.load)
+    assert np.abs(rigid_motions(shaft).T @ np.concatenate(laws) - load).max() <= 1e-8 * np.abs(load).max()

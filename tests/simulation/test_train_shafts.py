@@ -4,7 +4,7 @@ from functools import cache
 
 import numpy as np
 import pytest
-from tests.elastic_shaft_scenes import E_AXLE, ELASTIC, OUTPUT, ROLLING, SKEWED, WHEEL
+from tests.elastic_shaft_scenes import E_AXLE, ELASTIC, INPUT, OUTPUT, PINION, ROLLING, SKEWED, WHEEL
 from tests.trains import (
     bearing_sections,
     bent_ends,
@@ -56,8 +56,9 @@ IN_A_TRAIN = {
 }
 ON_ROLLING = ROLLING + OUTPUT + WHEEL
 BETWEEN = E_AXLE + OUTPUT + WHEEL
-# As thick as the bore; on rolling bearings a pair's face bends by coordinates of its own, as in trains.
-FITTED = BETWEEN.replace("integral", "press fit").replace("35 mm", "27 mm")
+# As thick as the bore, on springs that are alike in all directions.
+FITTED = (INPUT + PINION).replace("114 mm", "58 mm").replace('"85 mm"', '"110 mm"').replace("35 mm", "27 mm")
+FITTED = FITTED.replace("torque_at", 'seat = "press fit"\ntorque_at') + OUTPUT + WHEEL
 
 
 def pair_and_train(helix: float, shafts: str, vibrating: bool) -> tuple[str, str]:
@@ -316,3 +317,37 @@ def test_clocked_paths_on_stiff_shafts_are_those_on_rigid_shafts(bent):
     for name in ("path_share", "overall_transmission_error", "line_load", "transmission_error"):
         size = np.nanmax(np.abs(rigid[name].values))
         assert stiff[name].values == pytest.approx(rigid[name].values, abs=1e-5 * size, nan_ok=True), name
+
+
+def test_shafts_whose_seats_give_way_are_in_balance_on_three_bearings():
+    """Newton's third law and statics in space, at every step: forces and moments of all bearings of a shaft, of which
+    one too many holds it, and of its gear's teeth cancel about its left end; friction among them. One gear is pressed
+    on beside its bearings, the other is cut in between."""
+    text = helical_stage("one", 3.0, (18, 35), 15.0) + "[friction]\ncoefficient = 0.1\n"
+    text += ACCURACY.replace("steps_per_mesh_cycle = 10", "steps_per_mesh_cycle = 4")
+    text += '[load]\noutput_torque = "200 N m"\n'
+    ends = {"pinion": ("press fit", 120.0, 27.0, 0.0), "wheel": ("integral", 60.0, 45.0, 140.0)}
+    for gear, (seat, at, thick, coupled) in ends.items():
+        more = f'seats = ["{seat}"]\ntorque_at = "{coupled} mm"\n'
+        text += shaft_section(gear, {f"one.{gear}": at}, 140.0, thick, more)
+        places = (10.0, 50.0, 85.0) if gear == "pinion" else (10.0, 100.0, 130.0)
+        text += bearing_sections(gear, places, 3e5, 1e5) + 'tilting_stiffness = "1e8 N mm/rad"\n'
+    scene = train_from_text(text)
+    found = simulate_train(scene)
+    pair = scene.meshes[0].pair
+    along = scene.meshes[0].direction + 0.5 * np.pi - pair.operating_pressure_angle
+    turn = np.array([[np.cos(along), np.sin(along), 0.0], [-np.sin(along), np.cos(along), 0.0], [0.0, 0.0, 1.0]])
+    for gear, (_, at, *_) in ends.items():
+        own = found.isel(mesh=0).sel(gear=gear)
+        force = np.stack([own[f"reaction_{axis}"].values for axis in "xyz"], axis=-1) @ turn
+        moment = np.stack([own[f"reaction_moment_{axis}"].values for axis in "xy"], axis=-1) @ turn[:2, :2]
+        on = [number for number, name in enumerate(found["bearing"].values) if str(name).startswith(gear)]
+        carried = np.stack([found[f"bearing_force_{axis}"].values[:, on] for axis in "xyz"], axis=-1)
+        moments = np.stack([found[f"bearing_moment_{axis}"].values[:, on] for axis in "xy"], axis=-1).sum(axis=1)
+        arm = np.array([0.0, 0.0, 1.0])
+        places = found["bearing_place"].values[on]
+        moments += np.cross(places[:, None] * arm, carried)[..., :2].sum(axis=1)
+        size = np.abs(force).max()
+        assert np.abs(carried).min(axis=0).max() > 1e-3 * size
+        assert carried.sum(axis=1) == pytest.approx(force, abs=1e-9 * size)
+        assert moments == pytest.approx(moment + np.cross(at * arm, force)[:, :2], abs=1e-9 * size * 140.0)
