@@ -67,6 +67,17 @@ def test_ctrl_c_that_mpirun_gets_too(tmp_path, monkeypatch, capsys, before):
         signal.signal(signal.SIGINT, found)
 
 
+def test_a_users_file_is_no_module_of_processes_that_mpirun_starts(tmp_path, monkeypatch):
+    """What `./gears` says of its own process; without one the study file is missed, exit code 2."""
+    mpirun = tmp_path / "mpirun"
+    mpirun.write_text('#!/bin/sh\nshift 2\nexec "$@"\n')
+    mpirun.chmod(0o755)
+    monkeypatch.setenv("PATH", f"{tmp_path}:{os.environ['PATH']}")
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "argparse.py").write_text("raise SystemExit(9)\n")
+    assert main(["map", "scene.toml", "--loads", "1 N m", "--processes", "1"]) == 2
+
+
 def test_the_summary_of_an_interrupted_run_says_so_first(simulation, capsys):
     """What a user expects before numbers of a part of the run: that they are, and of how much. The stand-in has two
     steps, one mesh cycle, of the demonstration's 3000."""
