@@ -1,5 +1,6 @@
 """Runs that are interrupted or fail. The simulation is replaced."""
 
+import builtins
 import os
 import signal
 import sys
@@ -9,6 +10,7 @@ from tests.commands.conftest import files, small_result
 from tests.programs import DEMO
 
 from fenics_gears import ComputationError, results
+from fenics_gears.__main__ import _main
 from fenics_gears.commands.cli import main
 
 
@@ -63,6 +65,26 @@ def test_ctrl_c_that_mpirun_gets_too(tmp_path, monkeypatch, capsys, before):
     try:
         assert main(["study", "study.toml", "--processes", "2"]) == 130
         assert signal.getsignal(signal.SIGINT) is before and "Interrupted" in capsys.readouterr().err
+    finally:
+        signal.signal(signal.SIGINT, found)
+
+
+def test_ctrl_c_while_the_program_is_imported_ends_it_without_a_word(monkeypatch):
+    """What the system does with a process that handles no signal; the handler of before is back for the command."""
+    found = signal.getsignal(signal.SIGINT)
+    handlers = []
+    imported = builtins.__import__
+
+    def seen(name, *given):
+        handlers.append(signal.getsignal(signal.SIGINT))
+        return imported(name, *given)
+
+    monkeypatch.setattr(builtins, "__import__", seen)
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+    try:
+        assert _main() is main
+        assert handlers[0] is signal.SIG_DFL
+        assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
     finally:
         signal.signal(signal.SIGINT, found)
 
