@@ -172,8 +172,10 @@ def standing_out(cases: Cases) -> dict[int, list[str]]:
     by_error = known[np.argsort(errors[known], kind="stable")]
     marks = [
         (by_error[0], "least transmission error"), (by_error[len(by_error) // 2], "median transmission error"),
-        (by_error[-1], "largest transmission error"), (known[np.argmax(forces[known])], "largest mesh force"),
+        (by_error[-1], "largest transmission error"),
     ]  # fmt: skip
+    if np.isfinite(forces[known]).any():
+        marks.append((known[np.nanargmax(forces[known])], "largest mesh force"))
     reasons: dict[int, list[str]] = {}
     for case, why in marks:
         reasons.setdefault(int(case), []).append(why)
@@ -226,6 +228,8 @@ def _effort(cases: Cases) -> PageSection:
         ("wall time of all cases, one after the other", f"{np.nansum(times):.4g}", "s"),
         ("of a case", f"{np.nanmedian(times):.3g} (median), {np.nanmax(times):.3g} at most", "s"),
         ("Newton iterations of all cases", f"{np.nansum(iterations):,.0f}", ""),
-        ("steps per mesh cycle", f"{known.min():.0f}" + (f" to {known.max():.0f}" if np.ptp(known) else ""), ""),
     ]  # fmt: skip
+    if len(known):
+        span = f"{known.min():.0f}" + (f" to {known.max():.0f}" if np.ptp(known) else "")
+        rows.append(("steps per mesh cycle", span, ""))
     return PageSection("effort", "Solver and effort", [Facts(rows), *effort_charts(cases)])
