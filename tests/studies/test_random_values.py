@@ -133,7 +133,9 @@ def test_quantiles_of_a_set(folder, monkeypatch, capsys):
     Path("few.toml").write_text(few)
     assert main(["study", "few.toml", "-q"]) == 0
     assert main(["report", str(folder / "results" / "few"), "-q"]) == 0
-    assert "K_gamma of the sun" in (folder / "results" / "few" / "report.html").read_text(encoding="utf-8")
+    page = (folder / "results" / "few" / "report.html").read_text(encoding="utf-8")
+    assert "K_gamma of the sun" in page
+    assert "6 cases over input torque (2 values), 3 samples of 1 random field" in page
     assert "quantiles 5 / 50 / 95 %" in capsys.readouterr().out
 
 

@@ -55,9 +55,13 @@ def study_page(dataset: xr.Dataset, file: Path, output: Path, progress: Progress
         scene_section(str(attributes.get("scene", "")), "Base scene"),
     ]  # fmt: skip
     title = " ".join(str(attributes.get("title", "")).split()) or file.parent.name
-    values = {field.called: len(set(map(str, field.values.tolist()))) for field in cases.fields}
-    swept = ", ".join(f"{name} ({counted(count, 'value')})" for name, count in values.items())
-    subtitle = f"{counted(cases.count, 'case')} over {swept}"
+    random = [field.name for field in cases.fields if "sample" in dataset[field.name].dims]
+    listed = [field for field in cases.fields if field.name not in random]
+    values = {field.called: len(set(map(str, field.values.tolist()))) for field in listed}
+    swept = [f"{name} ({counted(count, 'value')})" for name, count in values.items()]
+    if random:
+        swept.append(f"{counted(dataset.sizes['sample'], 'sample')} of {counted(len(random), 'random field')}")
+    subtitle = f"{counted(cases.count, 'case')} over {', '.join(swept)}"
     subject = f"Gear {'train' if cases.of_trains else 'pair'}: report on a study"
     return Page(subject, title, subtitle, sections, made_by(), _alarm(cases))
 
