@@ -3,14 +3,14 @@
 import atexit
 import gc
 import os
+import signal
 import sys
-
-from fenics_gears.commands.cli import main
+from collections.abc import Callable
 
 
 def command() -> None:
     """Run the command line and end the process."""
-    code = main()
+    code = _main()()
     # What is left ends with the process; nobody need look for garbage in it.
     gc.freeze()
     # Taking all libraries apart would take 0.4 s.
@@ -19,6 +19,17 @@ def command() -> None:
     sys.stdout.flush()
     sys.stderr.flush()
     os._exit(code)
+
+
+def _main() -> Callable[[], int]:
+    """The command line. Ctrl-C while it is imported ends the process without a word."""
+    handler = signal.getsignal(signal.SIGINT)
+    if handler is signal.default_int_handler:
+        signal.signal(signal.SIGINT, signal.SIG_DFL)
+    from fenics_gears.commands.cli import main
+
+    signal.signal(signal.SIGINT, handler)
+    return main
 
 
 def _leave_job() -> None:

@@ -245,9 +245,16 @@ def _bearings_brace(elastic: ElasticShaft) -> Iterator[str]:
 
 
 def bearings_hold(system: ShaftSystem) -> Iterator[str]:
-    """The bearings leave no motion free."""
+    """The bearings leave no motion free, and rings with rolling elements between them stand apart."""
     free_of = free_motions(system.shafts, system.springs)
     for shaft in system.shafts:
+        for number, bearing in enumerate(shaft.bearings):
+            there = [each for each in shaft.bearings[:number] if abs(each.at - bearing.at) < ROUND_OFF]
+            if any(each.rolling is not None for each in there) or there and bearing.rolling is not None:
+                yield (
+                    f"bearings.{shaft.name}: the bearing at {bearing.at:g} mm, place {number + 1}, stands where another"
+                    " one does, and one of them is rolling; allowed is another place, or one bearing alone"
+                )
         free = free_of[shaft.name]
         if free:
             count = len(shaft.bearings)

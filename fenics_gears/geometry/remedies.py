@@ -11,7 +11,7 @@ from .gear_checks import Remedy
 from .gear_data import GearPairData
 
 # Changes that are tried, in modules; between the last that does not help and the first that does it is halved so often.
-STEPS = (0.02, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.75, 0.9, 1.1, 1.3, 1.6, 2.0, 2.5, 3.0, 4.0)
+STEPS = (0.02, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.75, 0.9, 1.1, 1.3, 1.6, 2.0, 2.5, 3.0, 4.0, 6.0, 9.0, 14.0, 20.0)
 # Axes may be far apart by a slip, and only a narrow range helps.
 STEPS_OF_AXES = (0.02, 0.1, *(0.25 * number for number in range(1, 25)))
 HALVINGS = 6

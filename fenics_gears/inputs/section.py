@@ -67,15 +67,18 @@ class PartRefused(Refused):
 
 
 def read_by_itself(section: type[Section], tree: Mapping[str, Any], path: Path) -> tuple[Any, list[Problem]]:
-    """As `read`; unknown names are told with those of the section."""
+    """As `read`; unknown names are told with those of the section that they are in."""
     found, problems = read(section, tree, path)
-    known = names_in(section)
-    return found, [
-        replace(each, message=f"is not known here.{did_you_mean(each.path[-1], known)} Known: {', '.join(known)}.")
-        if each.unknown
-        else each
-        for each in problems
-    ]
+
+    def told(problem: Problem) -> Problem:
+        home: type[Section] = section
+        for name in problem.path[len(path) : -1]:
+            home = section_within(home, name) or home
+        known = names_in(home)
+        said = f"is not known here.{did_you_mean(problem.path[-1], known)} Known: {', '.join(known)}."
+        return replace(problem, message=said)
+
+    return found, [told(each) if each.unknown else each for each in problems]
 
 
 def read(section: type[Section], tree: Mapping[str, Any], path: Path = ()) -> tuple[Any, list[Problem]]:

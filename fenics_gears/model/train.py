@@ -7,6 +7,7 @@ that twist.
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
@@ -14,7 +15,7 @@ from math import ceil
 
 from fenics_gears.dynamics.mesh_in_train import drivetrain_of_mesh
 from fenics_gears.dynamics.train import coordinates_of_mesh
-from fenics_gears.scene.data import Load, Motion, Scene
+from fenics_gears.scene.data import Load, Motion
 from fenics_gears.scene.train import TrainScene
 from fenics_gears.scene.train_mesh import MeshOfScene, rows_of
 from fenics_gears.scene.train_shafts import TrainShafts
@@ -22,7 +23,19 @@ from fenics_gears.scene.train_shafts import TrainShafts
 from .model import Model, model_of
 from .planetary_windows import coarser, largest_torque, narrowed, with_own_nodes
 from .row_model import RowModel
-from .train_parts import bent_of, check_alike, check_supports, model_of_mesh, parts_of, whole_steps, whole_torques
+from .train_parts import (
+    Known,
+    bent_of,
+    check_alike,
+    check_supports,
+    model_of_mesh,
+    parts_of,
+    whole_steps,
+    whole_torques,
+)
+
+# Thousands of sets that differ in their errors have the same few models but for these.
+_KNOWN_OF_SETS: Known = deque(maxlen=32)
 
 
 @dataclass(frozen=True)
@@ -71,7 +84,7 @@ def together(meshes: Sequence[MeshOfScene], shafts: TrainShafts, recorded_cycles
     """Meshes that move together, their cycles divided into steps of one length in time; `recorded_cycles` as of
     TrainScene."""
     check_supports(meshes)
-    known: list[tuple[Scene, Model]] = []
+    known = _KNOWN_OF_SETS if shafts.carrier is not None else deque()
     models = [model_of_mesh(mesh, mesh.scene, known) for mesh in meshes]
     if shafts.carrier is not None:
         models = [coarser(mesh, model) for mesh, model in zip(meshes, models)]

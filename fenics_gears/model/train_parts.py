@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Sequence
 from dataclasses import replace
 from math import ceil, gcd, inf, lcm
@@ -29,6 +30,7 @@ if TYPE_CHECKING:
     from fenics_gears.dynamics.train_shafts import BentShafts
     from fenics_gears.scene.carrier import Carrier
 
+Known = deque[tuple[Scene, Model]]
 # Steps of the mesh cycles of all meshes together: each has its contact operators.
 MOST_POSITIONS = 20000
 
@@ -178,7 +180,7 @@ def check_supports(meshes: Sequence[MeshOfScene]) -> None:
 ERRORS_OF_SETS = ("eccentricity", "flank_errors")
 
 
-def model_of_mesh(mesh: MeshOfScene, scene: Scene, known: list[tuple[Scene, Model]]) -> Model:
+def model_of_mesh(mesh: MeshOfScene, scene: Scene, known: Known) -> Model:
     """As `model_of`, of a mesh with such a scene, from those `known` where the meshes of other planets have the same or
     differ in their errors alone; what is wrong with shafts is said with their names in the train."""
     found = next((model for other, model in known if other == scene), None)

@@ -17,6 +17,7 @@ from fenics_gears.inputs.problem import NOTHING_DONE
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.scene.train import TrainScene
 
+from .planetary import kinds_of_meshes
 from .sets_in_train import LAG_OF_SET, SET
 
 HARMONICS = 10
@@ -173,7 +174,7 @@ def overall_orders(result: xr.Dataset, train: TrainScene, *, turns: bool = False
             known.append(each)
     found = []
     for group in alike:
-        names = ", ".join(each.name for each in group)
+        names = ", ".join(kinds_of_meshes([each.name for each in group]))
         spectra = [np.fft.rfft(each.values)[1 : HARMONICS + 1] * (2.0 / len(each.values)) for each in group]
         most = min(map(len, spectra))
         amplitudes = np.abs(sum(each[:most] for each in spectra))

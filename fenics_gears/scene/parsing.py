@@ -105,6 +105,11 @@ def values_of_text(
             " of two gears, as scene.toml into a folder by the stage's name; take it. In Python"
             f" fenics_gears.load_train reads a train. {NOTHING_DONE}"
         )
+    if "stages" in tree:
+        raise SceneError(
+            f"{source}: has [gears], which are those of a pair, and [stages], which are those of a train. Leave one of"
+            f" the two out. {NOTHING_DONE}"
+        )
     try:
         values, problems = values_of(tree, text, name, directory)
     except GeometryError as error:

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from functools import lru_cache
 from math import pi
 from pathlib import Path
 from typing import Any
@@ -17,10 +18,12 @@ from fenics_gears.geometry.planetary import RING, PlanetarySet
 from fenics_gears.inputs.problem import NOTHING_DONE
 from fenics_gears.inputs.section import names_in
 from fenics_gears.inputs.tree import GEARS
+from fenics_gears.inputs.written import as_toml
 
 from .carrier import Carrier, OfSet
 from .data import Scene
 from .gear_schema import Gears
+from .parsing import parsed
 from .planetary_assembly import check_centres, check_clear, set_of
 from .planetary_in_time import INERTIA, check_in_time, inertia_and_damping, wrong_in_time
 from .planetary_rules import OF_A_SET_ALONE, OF_THE_TRAIN, text_of_set, wrong_sections
@@ -34,6 +37,7 @@ from .train_rules import TrainSections, load_and_motion
 from .train_shafts import TrainShafts
 
 Tree = Mapping[str, Any]
+SCENES_HELD = 32
 
 
 def planetary_parts(tree: Tree, source: str, folder: Path) -> tuple[list[MeshOfScene], TrainSections]:
@@ -130,11 +134,17 @@ def _scene(tree: Tree, own: OfSet, content: Tree, gears: Mapping[str, Any], sour
         "load": {"wheel_torque": "1 N m"},
     }
     sections |= motion_put_in(sections, tree)
-    name = f"{own.stage} {own.mesh}"
     try:
-        return pair_scene(sections, name, f"{source}, stage {own.stage}", folder, Placed(own.place, own.words))
+        return _scene_read(as_toml(sections), own, f"{source}, stage {own.stage}", folder)
     except GeometryError as error:
         raise GeometryError(own.words(str(error))) from error
+
+
+@lru_cache(SCENES_HELD)
+def _scene_read(text: str, own: OfSet, source: str, folder: Path) -> Scene:
+    """That of a text, which names no file: thousands of cases with errors of their own have the pairs of one set."""
+    sections = parsed(text, source)
+    return pair_scene(sections, f"{own.stage} {own.mesh}", source, folder, Placed(own.place, own.words))
 
 
 def _carrier(stage: str, text: PlanetaryText, own: PlanetarySet, place: str, folder: Path) -> Carrier:

@@ -16,6 +16,8 @@ from .planetary_schema import PlanetaryText
 
 # Planets may be so far from where they can be assembled, in pitches: angles are written with few digits.
 LEAST_BESIDE = 1e-3
+# Of a diameter; circles that overlap by less meet.
+ROUNDING = 1e-9
 
 
 def check_centres(pairs: Sequence[GearPair], gears: tuple[str, str], place: str) -> None:
@@ -96,7 +98,8 @@ def check_clear(own: PlanetarySet, pairs: Sequence[GearPair], place: str) -> Non
         if clear <= 0.0:
             most = max(planets_that_assemble(own.turn, distance, tip), default=0)
             allowed = f"Equally spaced, up to {most} planets have room." if most else "No two planets have room."
+            overlap = f" overlap by {-clear:.4g} mm" if -clear > ROUNDING * tip else " meet, without room between them"
             raise GeometryError(
-                f"{place}: planets {one + 1} and {other + 1} touch: their tip circles of {tip:.6g} mm overlap by"
-                f" {-clear:.4g} mm. {allowed} {NOTHING_DONE}"
+                f"{place}: planets {one + 1} and {other + 1} touch: their tip circles of {tip:.6g} mm{overlap}."
+                f" {allowed} {NOTHING_DONE}"
             )

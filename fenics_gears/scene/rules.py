@@ -103,7 +103,8 @@ def _both_gears_have_a_width(tree: Tree) -> Broken:
 
 def _a_wheel_that_drives_has_coast_flanks(tree: Tree) -> Broken:
     load = load_in(tree)
-    if load is not None and load[1] < 0.0 and "coast_flanks" not in tree:
+    # The torque of a power is negative too where the speed is, which is told by itself.
+    if load is not None and (quantity_at(tree, *load[0]) or 0.0) < 0.0 and "coast_flanks" not in tree:
         unit = "kW" if load[0][-1] == "power" else "N m"
         why = "is negative: it drives the pair from the wheel"
         yield load[0], f"{why}. Allowed: with the section [coast_flanks] any sign, without it 0 {unit} and above."

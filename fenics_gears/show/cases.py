@@ -106,7 +106,10 @@ class Cases:
         return sorted(swept, key=lambda field: order.get(field.name, len(order)))
 
     def numbers(self, name: str) -> np.ndarray:
-        """A number of each case (n,), not a number where there is none; of trains the largest of their meshes."""
+        """A number of each case (n,), not a number where there is none, as of most where a study keeps few; of trains
+        the largest of their meshes."""
+        if name not in self.dataset:
+            return np.full(self.count, np.nan)
         values = self.dataset[name]
         values = values.max("mesh") if "mesh" in values.dims else values
         return values.values.ravel().astype(float)

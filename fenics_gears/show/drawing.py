@@ -214,11 +214,11 @@ def _draw_curve(axes: Axes, curve: Curve, chart: Chart) -> None:
     if curve.fill:
         axes.fill(x, y, color=curve.fill, zorder=0.9)
     up = ("top" in curve.beside) - ("bottom" in curve.beside)
-    right = 1 if "right" in curve.beside else -1
+    right = ("right" in curve.beside) - ("left" in curve.beside)
     for words, place, height in zip(curve.words, x, y):
         axes.annotate(
             words, (place, height), xytext=(6 * right, 6 * up), textcoords="offset points", fontsize=10.5,
-            ha="left" if right > 0 else "right", va=("center", "bottom", "top")[up],
+            ha=("center", "left", "right")[right], va=("center", "bottom", "top")[up],
             bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 1.0},
         )  # fmt: skip
 

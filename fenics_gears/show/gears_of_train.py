@@ -66,5 +66,6 @@ def gears_of_train(scene: TrainScene) -> tuple[list[DrawnGear], float]:
 def outline_of(gear: Gear, angle: float, centre: complex) -> np.ndarray:
     """Outline (n, 2), mm, of a gear of which a tooth's centreline stands at an angle (rad), closed."""
     tooth = tooth_points(gear)
-    turned = angle - centreline_angle(gear) - gear.angular_pitch * np.arange(gear.tooth_count + 1)
-    return np.vstack([tooth @ rotation(each).T for each in turned]) + [centre.real, centre.imag]
+    turned = angle - centreline_angle(gear) - gear.angular_pitch * np.arange(gear.tooth_count)
+    around = np.vstack([tooth @ rotation(each).T for each in turned]) + [centre.real, centre.imag]
+    return np.vstack([around, around[:1]])

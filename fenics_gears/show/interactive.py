@@ -135,8 +135,8 @@ def _flag(layout: dict, chart: Chart) -> None:
 def _words(curve: Curve) -> list[dict]:
     """Words next to the points of a curve."""
     up = ("top" in curve.beside) - ("bottom" in curve.beside)
-    right = 1 if "right" in curve.beside else -1
-    at: dict[str, Any] = {"xanchor": "left" if right > 0 else "right", "yanchor": ("middle", "bottom", "top")[up]}
+    right = ("right" in curve.beside) - ("left" in curve.beside)
+    at: dict[str, Any] = {"xanchor": ("center", "left", "right")[right], "yanchor": ("middle", "bottom", "top")[up]}
     at |= {"xshift": 7 * right, "yshift": 5 * up}
     look = {"font": {"size": 12, "color": DARK}, "bgcolor": "rgba(255, 255, 255, 0.8)", "borderpad": 1}
     look["showarrow"] = False

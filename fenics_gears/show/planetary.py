@@ -59,7 +59,7 @@ def set_drawing(scene: TrainScene) -> Chart:
         curves.append(_closed(words, second, "white", listed=False))
     middles = np.array([at[layout.graph.shafts[names.index(each)]] for each in carrier.planets])
     said = [each.rpartition(" ")[2] for each in carrier.planets]
-    curves.append(Curve("planets", middles.real, middles.imag, DARK, mode=WORDS, listed=False, words=said))
+    curves.append(Curve("planets", middles.real, middles.imag, DARK, mode=WORDS, listed=False, words=said, beside=""))
     own = carrier.set
     caption = (
         f"To scale, as the run begins; {own.fixed} fixed, {own.input} drives, {own.output} loaded,"
@@ -78,7 +78,8 @@ def _closed(name: str, points: np.ndarray, fill: str, listed: bool = True) -> Cu
 
 
 def shares(scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:
-    """Load share and pin force of each planet over the run's last mesh cycle; nothing of other trains."""
+    """Load share and pin force of each planet over the run's last mesh cycle, or where cycles differ over the run;
+    nothing of other trains."""
     return [chart for own in sets_of(scene, dataset) for chart in _shares(*own)]
 
 
@@ -111,9 +112,10 @@ def _of_planets(scene: TrainScene, phase: np.ndarray, values: np.ndarray) -> lis
 
 def _last_period(scene: TrainScene, dataset: xr.Dataset) -> tuple[np.ndarray, slice]:
     """Phases of the last mesh cycle, or those after which all meshes of stepped planets are where they were, with both
-    ends, and where they are among the steps."""
-    steps = int(dataset["steps_per_mesh_cycle"][0]) * carrier_of(scene).set.cycles[0]
-    last = slice(-1 - steps, None)
+    ends, and where they are among the steps; of gears with errors, whose cycles differ, of the whole run."""
+    carrier = carrier_of(scene)
+    steps = int(dataset["steps_per_mesh_cycle"][0]) * carrier.set.cycles[0]
+    last = slice(None) if carrier.run_outs or carrier.pitches else slice(-1 - steps, None)
     return np.asarray(dataset["mesh_phase"])[last, 0], last
 
 
@@ -126,6 +128,8 @@ def _orbits(of_set: str, scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:
     cycles = carrier_of(scene).set.cycles[0]
     over = "a mesh cycle" if cycles == 1 else f"{cycles} mesh cycles with the sun"
     _, last = _last_period(scene, dataset)
+    if last == slice(None):
+        over = "the run"
     charts = []
     for number, member in enumerate(carrier_of(scene).moving):
         place = carrier_of(scene).set.members.index(member)
@@ -133,7 +137,7 @@ def _orbits(of_set: str, scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:
         colour = PALETTE[number % len(PALETTE)]
         curves = [
             Curve(f"centre of the {member}", x, y, colour),
-            Curve("as the cycle begins", x[:1], y[:1], colour, mode=MARKERS),
+            Curve("as it begins", x[:1], y[:1], colour, mode=MARKERS),
         ]
         farthest = f"{np.hypot(x, y).max():.4g} µm at most from its place"
         caption = f"{of_set}Orbit of the {member} over {over}, {farthest}"

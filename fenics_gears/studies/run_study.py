@@ -47,13 +47,15 @@ def run_study(
     written, where the study is wrong; ComputationError where its directory cannot be used.
     """
     with ranks(meanwhile) as team:
-        return None if team is None else run_with(team, load_study(path), directory_of(path, output), progress, quiet)
+        if team is None:
+            return None
+        return run_with(team, load_study(path, progress), directory_of(path, output), progress, quiet)
 
 
 def kept_study(path: Path, output: Path | None, progress: Progress, quiet: bool = False) -> Outcome | None:
     """As `run_study`, of a study of which nothing is missing, without other processes; else None, and nothing is
     written."""
-    return run_with(Alone(), load_study(path), directory_of(path, output), progress, quiet, only_kept=True)
+    return run_with(Alone(), load_study(path, progress), directory_of(path, output), progress, quiet, only_kept=True)
 
 
 def run_with(

@@ -2,7 +2,7 @@
 
 import functools
 import math
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -18,6 +18,7 @@ from fenics_gears.scene.parsing import is_train, name_of, parsed, text_of
 from fenics_gears.scene.read import load_scene_or_train
 from fenics_gears.scene.train import TrainScene
 from fenics_gears.scene.train_pair import STAGES
+from fenics_gears.system.progress import Progress, SilentProgress
 
 from . import fields
 from .axis import SAMPLE, Axis, AxisError, label, unit_of, values_of
@@ -31,6 +32,8 @@ KEPT = ("runs", "numbers")
 # What is asked for where numbers alone are kept, of pairs and of trains.
 OF_PAIRS = ("peak_to_peak_transmission_error", "max_normal_force")
 MOST_CASES = 100_000
+# So many are validated within a second or two.
+MOST_CASES_AT_ONCE = 100
 # Names of the combined dataset's own variables.
 TAKEN = {"case", "failed", "failure", "meaningless", "mesh_phase", "gear", "mesh", "quantile", SAMPLE}
 
@@ -53,7 +56,7 @@ class Mistakes:
             raise SceneError(counted(list(self._said), len(self._said), self._source))
 
 
-def load_study(path: str | Path) -> Study:
+def load_study(path: str | Path, progress: Progress | None = None) -> Study:
     """Read a study file and its base scene and validate every case. Raises SceneError, naming every mistake at once,
     before anything is computed."""
     path = Path(path)
@@ -67,11 +70,16 @@ def load_study(path: str | Path) -> Study:
     lines = {
         (name[0], ".".join(name[1:])) if len(name) > 1 else name: line for name, line in line_numbers(text).items()
     }
-    return study_of(tree, path, text, str(path), lines)
+    return study_of(tree, path, text, str(path), lines, progress)
 
 
 def study_of(
-    tree: Mapping[str, Any], path: Path, text: str, source: str, lines: Mapping[tuple[str, ...], int]
+    tree: Mapping[str, Any],
+    path: Path,
+    text: str,
+    source: str,
+    lines: Mapping[tuple[str, ...], int],
+    progress: Progress | None = None,
 ) -> Study:
     """The study of a parsed file; `path` from whose folder the base scene is named and whose stem is the study's name,
     `source` and `lines` for messages."""
@@ -88,7 +96,8 @@ def study_of(
     name = name_of(path)
     combine = changes.combine
     axes = changes.axes
-    cases = _cases(Scenes(name, scene_file.parent, changes, scene_tree), changes, mistakes)
+    scenes = Scenes(name, scene_file.parent, changes, scene_tree)
+    cases = _cases(scenes, changes, mistakes, progress or SilentProgress())
     mistakes.check()
     asked = None
     if tree.get("keep") == "numbers":
@@ -252,11 +261,15 @@ def _check_stages(changes: SceneChanges, scene_tree: Mapping[str, Any], scene_fi
             mistakes.add(place, None, f"is of a stage {path[1]}, but {scene_file} {there}.{hint}")
 
 
-def _cases(scenes: Scenes, changes: SceneChanges, mistakes: Mistakes) -> tuple[Run, ...]:
+def _cases(scenes: Scenes, changes: SceneChanges, mistakes: Mistakes, progress: Progress) -> tuple[Run, ...]:
     cases: list[Run] = []
     by_key: dict[str, Run] = {}
     wrong: dict[tuple, list[str]] = {}
-    for index in range(len(scenes.points)):
+    numbers: Iterable[int] = range(len(scenes.points))
+    if len(scenes.points) > MOST_CASES_AT_ONCE:
+        progress.stage("validate cases")
+        numbers = progress.counted(range(len(scenes.points)))
+    for index in numbers:
         values = scenes.values(index)
         try:
             case = run_of(scenes.model(index), index, values, functools.partial(scenes.model, index))

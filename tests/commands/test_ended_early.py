@@ -1,5 +1,6 @@
 """Runs that are interrupted or fail. The simulation is replaced."""
 
+import builtins
 import os
 import signal
 import sys
@@ -9,6 +10,7 @@ from tests.commands.conftest import files, small_result
 from tests.programs import DEMO
 
 from fenics_gears import ComputationError, results
+from fenics_gears.__main__ import _main
 from fenics_gears.commands.cli import main
 
 
@@ -65,6 +67,37 @@ def test_ctrl_c_that_mpirun_gets_too(tmp_path, monkeypatch, capsys, before):
         assert signal.getsignal(signal.SIGINT) is before and "Interrupted" in capsys.readouterr().err
     finally:
         signal.signal(signal.SIGINT, found)
+
+
+def test_ctrl_c_while_the_program_is_imported_ends_it_without_a_word(monkeypatch):
+    """What the system does with a process that handles no signal; the handler of before is back for the command."""
+    found = signal.getsignal(signal.SIGINT)
+    handlers = []
+    imported = builtins.__import__
+
+    def seen(name, *given):
+        handlers.append(signal.getsignal(signal.SIGINT))
+        return imported(name, *given)
+
+    monkeypatch.setattr(builtins, "__import__", seen)
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+    try:
+        assert _main() is main
+        assert handlers[0] is signal.SIG_DFL
+        assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+    finally:
+        signal.signal(signal.SIGINT, found)
+
+
+def test_a_users_file_is_no_module_of_processes_that_mpirun_starts(tmp_path, monkeypatch):
+    """What `./gears` says of its own process; without one the study file is missed, exit code 2."""
+    mpirun = tmp_path / "mpirun"
+    mpirun.write_text('#!/bin/sh\nshift 2\nexec "$@"\n')
+    mpirun.chmod(0o755)
+    monkeypatch.setenv("PATH", f"{tmp_path}:{os.environ['PATH']}")
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "argparse.py").write_text("raise SystemExit(9)\n")
+    assert main(["map", "scene.toml", "--loads", "1 N m", "--processes", "1"]) == 2
 
 
 def test_the_summary_of_an_interrupted_run_says_so_first(simulation, capsys):

@@ -31,6 +31,9 @@ def test_a_set_is_drawn_to_scale():
     teeth, bore = (np.hypot(each.x, each.y) for each in gears if each.name == "sun, 17 teeth")
     assert (teeth.min(), teeth.max()) == pytest.approx((sun.root_radius, sun.tip_radius), rel=1e-3)
     assert bore == pytest.approx(np.full(len(bore), sun.bore_radius))
+    # Around the axis once: a tooth of the ring that is drawn twice has the colour of what is within the ring.
+    turns = [np.ptp(np.unwrap(np.arctan2(each.y, each.x))[[0, -1]]) for each in gears if abs(np.mean(each.x)) < 1.0]
+    assert turns == pytest.approx(4 * [2.0 * np.pi])
 
 
 def test_both_scenes_are_sets_of_fva():

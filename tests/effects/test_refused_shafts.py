@@ -76,6 +76,7 @@ PLACED = '[bearings.places]\npinion = ["-40 mm", "60 mm"]\n'
         (ROLLING.replace("number = 9,", ""), "bearings.pinion.* has no rolling.number at place 1"),
         (ROLLING.replace("number = 9,", "number = 2,"), "pinion = a list.*number = 2 at place 1.*to 500[^:]*$"),
         (ROLLING.replace("number = 9,", "number = 90,"), "place 1, has 90 balls .* do not fit on a pitch_diameter"),
+        (ROLLING.replace('"85 mm"', '"12 mm"'), "place 2, stands where another one does, and one of them is rolling"),
         (ROLLING.replace('length = "10 mm"', ""), "place 2, has rollers without length"),
         (
             ROLLING.replace("rolling = {", 'radial_stiffness = "1 N/mm"\nrolling = {'),

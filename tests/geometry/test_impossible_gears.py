@@ -29,6 +29,8 @@ IMPOSSIBLE = {
     "contact ratio by undercut": (few_teeth(8, 0.0) | {"centre_distance": 72.9}, ["pair: contact ratio 0.9",
         "shortened by the undercut pinion", "at least 1", "profile_shift"]),
     "pointed tip": ({"wheel.tip_diameter": 127.0}, ["wheel: pointed tip", "127 mm", "gears.wheel.tip_diameter"]),
+    "tip eight modules too high": ({"wheel.tip_diameter": 160.0}, ["wheel: pointed tip", "160 mm",
+        "lower gears.wheel.tip_diameter to 12"]),
     "no backlash": ({"centre_distance": 91.3}, ["pair: no backlash", "91.3 mm", "91.3697", "gears.centre_distance"]),
     "contact ratio": ({"pinion.tip_diameter": 78.5, "wheel.tip_diameter": 114.0}, ["pair: contact ratio 0.8",
         "at least 1", "gears.pinion.tip_diameter"]),

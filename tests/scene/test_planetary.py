@@ -66,6 +66,11 @@ IN_TIME = f"{IN_TIME.replace('[inertia]', '')}\n[inertia]\n".replace(
         (planetary_text(more='eccentricity = { sun = { phase = "9 deg" } }'), "sun.distance.*\n.*is missing"),
         (planetary_text(more='eccentricity = { carrier = {} }'), "eccentricity.carrier.*\n.*not known here"),
         (
+            planetary_text(more='pitch_errors = { step = ["1 um"] }'),
+            "pitch_errors.step .*not known here. Known: sun, planets, ring",
+        ),
+        (planetary_text((20, 16, 52), "planets = 6"), "tip circles of 72 mm meet, without room .* up to 4 planets"),
+        (
             planetary_text((17, 20, 52), "planets = 3", step=15),
             "planet 3 would need its gears turned against each other by 2 deg more",
         ),

@@ -63,6 +63,8 @@ MUTATIONS = [
      ["is an angular speed", '"200 Hz"']),
     ('mesh_frequency = "200 Hz"', 'mesh_frequency = "200 Hz"\npinion_speed = "750 rpm"',
      'motion.pinion_speed = "750 rpm"', ["one of the two"]),
+    ('wheel_torque = "437 N m"\n\n[motion]\nmesh_frequency = "200 Hz"',
+     'power = "20 kW"\n\n[motion]\npinion_speed = "-750 rpm"', 'motion.pinion_speed = "-750 rpm"', ["1 mistake in"]),
     ("recorded_cycles = 2", "recorded_cycles = 31", "motion.recorded_cycles = 31", ["is more than mesh_cycles = 30"]),
     ("coefficient = 0.1", "coefficient = 0", "friction.coefficient = 0", ["is zero",
      "leave the section [friction] out", "up to 5"]),
@@ -98,6 +100,7 @@ def test_a_wrong_scene_is_refused(refusal, old, new, field, fragments):
 SECTIONS = [
     ("inertia", [], ["[damping]\n", "needs the section [inertia], which is missing", "leave [damping] out"]),
     ("", [('"once"', '"every step"'), "[coast_flanks]"], ["accuracy.condensation", "no contact on the coast flanks"]),
+    ("", '[stages.one]\nkind = "row"', ["has [gears], which are those of a pair, and [stages]", "Leave one"]),
     ("", "[thermal]", ["[thermal]\n", "is not a known section", "tip_relief"]),
     ("", "[tip_relief]", ["tip_relief.depth\n", "tip_relief.start\n", "is missing", '"HPSTC"', "2 mistakes"]),
     ("", '[tip_relief]\nstart = "HPSTC"\n[tip_relief.pinion]', ["tip_relief.pinion.depth\n", "is missing"]),

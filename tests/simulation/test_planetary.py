@@ -5,7 +5,7 @@ import pytest
 from matplotlib.path import Path as Polygon
 from tests.planets import COARSE, RELIEF, RINGED, TWO_SUNS, planetary, written_out
 
-from fenics_gears import simulate_train
+from fenics_gears import carried_train, overall_orders, simulate_train
 from fenics_gears.scene.train_layout import centres
 from fenics_gears.show.gears_of_train import outline_of
 
@@ -38,6 +38,9 @@ def test_a_floating_sun_shares_evenly_between_three(floating):
     they are equal: at every instant, whatever the errors, phases and elasticity."""
     sun, ring = forces(floating)
     assert apart(sun) < 1e-12
+    # All meshes have one frequency, which is named once of each kind.
+    (named,) = {each.meshes for each in overall_orders(floating, carried_train(floating))}
+    assert named == "set: sun and planets, set: planets and ring"
     np.testing.assert_allclose(sun, ring, rtol=1e-12)
     assert floating.attrs["load_sharing_factor"] == pytest.approx(1.0, abs=1e-12)
     assert np.hypot(floating["member_x"], floating["member_y"])[:, 0].min() > 1e-3

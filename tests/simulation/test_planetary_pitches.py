@@ -6,11 +6,12 @@ import numpy as np
 import pytest
 from tests.planets import planetary, planetary_text
 
-from fenics_gears import simulate_train
+from fenics_gears import carried_train, simulate_train
 from fenics_gears.commands.cli import main
 from fenics_gears.contact.flank_gaps import FlankGaps
 from fenics_gears.errors import SceneError
 from fenics_gears.model.train import train_model_of
+from fenics_gears.show.planetary import shares
 from fenics_gears.simulation.elastic_route import deviations_of
 from fenics_gears.simulation.train import cycle_of_row
 from fenics_gears.system.progress import SilentProgress
@@ -48,6 +49,9 @@ def test_a_late_tooth_comes_to_one_planet_after_the_other(member, number, sense)
     changed = np.abs(meshes[:: STEPS // 2] - true[:: STEPS // 2][np.arange(len(meshes[:: STEPS // 2])) % 2]).max(axis=1)
     # Between two planets the tooth touches nothing.
     assert changed.min() < 1e-6 < 100.0 < changed.max()
+    # Cycles differ, and the picture has the one of the largest share.
+    (with_sun, *_) = shares(carried_train(found), found)
+    assert max(curve.y.max() for curve in with_sun.curves) == pytest.approx(found.attrs["load_sharing_factor"])
 
 
 def indices(row, mesh: int, side: int) -> np.ndarray:

@@ -11,13 +11,18 @@ from tests.studies.conftest import write_study
 from fenics_gears import simulate_train
 from fenics_gears.commands.cli import main
 from fenics_gears.errors import SceneError
+from fenics_gears.model import train_parts
+from fenics_gears.model.model import model_of
+from fenics_gears.model.train import _KNOWN_OF_SETS, train_model_of
 from fenics_gears.runs.gear_store import GearStore
 from fenics_gears.runs.train import train_completed
+from fenics_gears.scene.planetary import _scene_read
 from fenics_gears.simulation import train as train_simulation
 from fenics_gears.studies.combine import load_combined
 from fenics_gears.studies.quantiles import QUANTILES
 from fenics_gears.studies.random_values import sampled
 from fenics_gears.studies.study_file import load_study
+from fenics_gears.system.progress import SilentProgress
 
 PINS = ("stages", "set", "carrier", "pin_errors")
 NORMAL = {"distribution": "normal", "mean": "1 um", "deviation": "10 um", "count": 2000, "seed": 7, "entries": 3}
@@ -123,11 +128,47 @@ def test_quantiles_of_a_set(folder, monkeypatch, capsys):
     )
     assert (sharing[1] < sharing[0]).all()
     assert (folder / "results" / "study" / "load_sharing_factor.png").is_file()
+    # Of cases that keep numbers alone the page has these.
+    few = f'keep = "numbers"\n{Path("study.toml").read_text()}'
+    Path("few.toml").write_text(few)
+    assert main(["study", "few.toml", "-q"]) == 0
+    assert main(["report", str(folder / "results" / "few"), "-q"]) == 0
+    page = (folder / "results" / "few" / "report.html").read_text(encoding="utf-8")
+    assert "K_gamma of the sun" in page
+    assert "6 cases over input torque (2 values), 3 samples of 1 random field" in page
     assert "quantiles 5 / 50 / 95 %" in capsys.readouterr().out
 
 
 SETTLED = 'steps_per_mesh_cycle = 4\nflank_element_size = "0.5 mm"\ncontact_length = "3 mm"'
 TORQUES = 'load.input_torque = ["500 N m", "600 N m"]\n'
+
+
+def test_cases_that_differ_in_errors_share_the_pairs_of_their_set(folder, monkeypatch):
+    """Count: the two pairs of all cases are read and modelled once, beside those of the base scene; a model by itself
+    is the same."""
+    Path("set.toml").write_text(planetary_text((20, 16, 52), "planets = 3", accuracy=SETTLED))
+    pitches = '{ distribution = "normal", mean = "0 um", deviation = "3 um", entries = [3, 16], count = 101, seed = 1 }'
+    Path("study.toml").write_text(
+        f'scene = "set.toml"\n[sweep]\nstages.set.pitch_errors.planets = {pitches}\n'
+        'stages.set.eccentricity.sun.distance = { distribution = "uniform", start = "1 um", stop = "9 um", count = 101,'
+        " seed = 1 }\n"
+    )
+    _scene_read.cache_clear()
+    _KNOWN_OF_SETS.clear()
+    modelled = []
+    monkeypatch.setattr(train_parts, "model_of", lambda scene: modelled.append(scene) or model_of(scene))
+    progress = SilentProgress()
+    stages: list[str] = []
+    monkeypatch.setattr(progress, "stage", stages.append)
+    study = load_study("study.toml", progress)
+    assert stages == ["validate cases"]
+    assert _scene_read.cache_info().misses == 4
+    assert len(modelled) == 6
+    last = study.cases[-1].model
+    _KNOWN_OF_SETS.clear()
+    alone = train_model_of(last.scene)
+    for one, other in zip(last.models, alone.models):
+        assert one.scene == other.scene and one.resolution == other.resolution
 
 
 @pytest.mark.parametrize(

@@ -29,15 +29,17 @@ def under_mpirun(options: argparse.Namespace, arguments: list[str]) -> int:
     command = [mpirun, "-n", str(options.processes)]
     if options.processes > (os.cpu_count() or 1):
         command.append("--oversubscribe")
-    command += [sys.executable, "-m", "fenics_gears", *arguments]
+    # -P: a file of the user's folder that is called like a module does not take its place.
+    command += [sys.executable, "-P", "-m", "fenics_gears", *arguments]
     command += ["--output", str(options.output)] if options.output is not None else []
     command += ["--quiet"] if options.quiet else []
+    paths = os.pathsep.join([str(Path(__file__).parents[3]), *filter(None, [os.environ.get("PYTHONPATH")])])
     interrupted: list[int] = []
     # Ctrl-C reaches mpirun too, which ends its processes and itself; to kill it meanwhile would leave them behind. It
     # takes Ctrl-C even where a shell has this process ignore it.
     before = signal.signal(signal.SIGINT, lambda number, frame: interrupted.append(number))
     try:
-        code = subprocess.Popen(command).wait()
+        code = subprocess.Popen(command, env=os.environ | {"PYTHONPATH": paths}).wait()
     finally:
         signal.signal(signal.SIGINT, before)
     if not interrupted:

@@ -190,7 +190,7 @@ def _campbell(found: xr.Dataset, axis: str) -> Chart:
         harmonic = int(found["harmonic"][number])
         colour = (*PALETTE, DARK)[meshes.index(name) % (len(PALETTE) + 1)]
         curves.append(Curve(name, ends, order / 60.0 * ends, colour, listed=harmonic == 1))
-        said.setdefault(round(order, 6), []).append(f"{harmonic} × {name}")
+        said.setdefault(round(order, 6), []).append(f"{harmonic} × {name if len(meshes) > 1 else 'mesh'}")
     top = max(said) / 60.0 * fastest
     shown = found["natural_frequency"].values
     shown = shown[shown < top]

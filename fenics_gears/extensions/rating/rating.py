@@ -90,7 +90,8 @@ def _operation(scene: Scene, finish: Finish, result: xr.Dataset) -> Operation:
     if not scene.load.wheel_torque > 0.0:
         raise SceneError("a rating needs a torque that the pinion drives: load.wheel_torque is not above zero.")
     if not scene.motion.speed_given:
-        raise SceneError("a rating needs a speed: give the scene motion.pinion_speed or motion.mesh_frequency.")
+        speeds = "motion.pinion_speed or motion.mesh_frequency, a train motion.input_speed"
+        raise SceneError(f"a rating needs a speed: give the scene {speeds}.")
     if scene.gears.wheel.teeth < 0:
         raise SceneError("ratings of internal gears are not computed yet. Allowed: two external gears.")
     pair = gear_pair(scene.gears)

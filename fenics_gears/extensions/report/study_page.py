@@ -55,9 +55,13 @@ def study_page(dataset: xr.Dataset, file: Path, output: Path, progress: Progress
         scene_section(str(attributes.get("scene", "")), "Base scene"),
     ]  # fmt: skip
     title = " ".join(str(attributes.get("title", "")).split()) or file.parent.name
-    values = {field.called: len(set(map(str, field.values.tolist()))) for field in cases.fields}
-    swept = ", ".join(f"{name} ({counted(count, 'value')})" for name, count in values.items())
-    subtitle = f"{counted(cases.count, 'case')} over {swept}"
+    random = [field.name for field in cases.fields if "sample" in dataset[field.name].dims]
+    listed = [field for field in cases.fields if field.name not in random]
+    values = {field.called: len(set(map(str, field.values.tolist()))) for field in listed}
+    swept = [f"{name} ({counted(count, 'value')})" for name, count in values.items()]
+    if random:
+        swept.append(f"{counted(dataset.sizes['sample'], 'sample')} of {counted(len(random), 'random field')}")
+    subtitle = f"{counted(cases.count, 'case')} over {', '.join(swept)}"
     subject = f"Gear {'train' if cases.of_trains else 'pair'}: report on a study"
     return Page(subject, title, subtitle, sections, made_by(), _alarm(cases))
 
@@ -172,8 +176,10 @@ def standing_out(cases: Cases) -> dict[int, list[str]]:
     by_error = known[np.argsort(errors[known], kind="stable")]
     marks = [
         (by_error[0], "least transmission error"), (by_error[len(by_error) // 2], "median transmission error"),
-        (by_error[-1], "largest transmission error"), (known[np.argmax(forces[known])], "largest mesh force"),
+        (by_error[-1], "largest transmission error"),
     ]  # fmt: skip
+    if np.isfinite(forces[known]).any():
+        marks.append((known[np.nanargmax(forces[known])], "largest mesh force"))
     reasons: dict[int, list[str]] = {}
     for case, why in marks:
         reasons.setdefault(int(case), []).append(why)
@@ -226,6 +232,8 @@ def _effort(cases: Cases) -> PageSection:
         ("wall time of all cases, one after the other", f"{np.nansum(times):.4g}", "s"),
         ("of a case", f"{np.nanmedian(times):.3g} (median), {np.nanmax(times):.3g} at most", "s"),
         ("Newton iterations of all cases", f"{np.nansum(iterations):,.0f}", ""),
-        ("steps per mesh cycle", f"{known.min():.0f}" + (f" to {known.max():.0f}" if np.ptp(known) else ""), ""),
     ]  # fmt: skip
+    if len(known):
+        span = f"{known.min():.0f}" + (f" to {known.max():.0f}" if np.ptp(known) else "")
+        rows.append(("steps per mesh cycle", span, ""))
     return PageSection("effort", "Solver and effort", [Facts(rows), *effort_charts(cases)])

@@ -85,7 +85,8 @@ def _conditions(train: TrainScene) -> str:
 
 
 def _motion(train: TrainScene) -> str:
-    inert = train.meshes[0].scene.inertia is not None
+    carrier = train.shafts.carrier
+    inert = train.meshes[0].scene.inertia is not None or carrier is not None and carrier.in_time
     return f"with inertia, numbers of the last {train.recorded_cycles} cycles" if inert else "quasi-static"
 
 

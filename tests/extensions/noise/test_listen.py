@@ -5,8 +5,10 @@ import pytest
 import xarray as xr
 from scipy.io import wavfile
 from scipy.signal import hilbert
+from tests.planets import in_time
+from tests.trains import two_stages
 
-from fenics_gears import results
+from fenics_gears import results, simulate_train
 from fenics_gears.commands.cli import main
 from fenics_gears.extensions.noise.sound import HEADROOM, SAMPLE_RATE, sound
 
@@ -64,6 +66,26 @@ def test_a_ramp_is_heard_as_it_runs():
     at = np.arange(len(heard)) / SAMPLE_RATE
     inside = (at > 0.2) & (at < 1.8)
     assert instant[inside] == pytest.approx(200.0 + 400.0 * at[inside], rel=0.02)
+
+
+@pytest.mark.parametrize("set_or_train", [True, False])
+def test_the_ramp_of_a_train_is_heard_once(tmp_path, set_or_train):
+    """Definition: as long as its run, and what a pair's curve of the same values is."""
+    ramp = '[speed_ramp]\nend_speed = "90000 rpm"\n'
+    if set_or_train:
+        scene = in_time(60000, 12, sections=f"[damping]\nratio = 0.05\n{ramp}")
+    else:
+        ends = f'[inertia]\ndensity = "7.85 g/cm^3"\n[motion]\ninput_speed = "60000 rpm"\nmesh_cycles = 12\n{ramp}'
+        scene = two_stages(more=ends)
+    found = simulate_train(scene)
+    results.save(found, tmp_path / "run.nc")
+    assert main(["listen", str(tmp_path), "-q"]) == 0
+    _, samples = wavfile.read(tmp_path / "overall_transmission_error.wav")
+    assert len(samples) == pytest.approx(found["time"].values[-1] * SAMPLE_RATE, abs=2)
+    values = found["overall_transmission_error"].values
+    alone = sound(run(values, found["time"].values, found["mesh_phase"].values[:, 0]), "normal_force", 5.0)
+    heard = samples / np.abs(samples).max()
+    np.testing.assert_allclose(heard, alone.samples / np.abs(alone.samples).max(), atol=1e-3)
 
 
 def test_the_file_plays_at_the_scale_that_is_said(tmp_path, capsys):

@@ -1,10 +1,12 @@
 """Reports on runs and studies of trains."""
 
 import pytest
+from tests.planets import in_time
 from tests.trains import bent_two_stages, gearbox_file, split_text
 
 from fenics_gears import load
 from fenics_gears.commands.cli import main
+from fenics_gears.extensions.report.train_page import _conditions
 
 pytestmark = pytest.mark.usefixtures("without_stills")
 
@@ -42,6 +44,13 @@ def test_stages_that_move_together_have_natural_frequencies(tmp_path):
     _, page = page_of(scene, tmp_path)
     assert "with inertia" in page
     assert "Natural frequencies" in page
+
+
+def test_a_set_with_masses_is_not_called_quasi_static():
+    """What its scene says."""
+    said = _conditions(in_time(1500, 2, sections='[speed_ramp]\nend_speed = "3000 rpm"'))
+    assert said == "600 N m on the first shaft, 1500 to 3000 rpm, 6 meshes, with inertia, numbers of the last 2 cycles"
+    assert _conditions(in_time(1500, 2, inertia="")).endswith("quasi-static")
 
 
 def test_bearings_of_shafts_that_bend_are_listed(tmp_path):
