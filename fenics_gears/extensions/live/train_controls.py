@@ -21,7 +21,7 @@ MESHES = {
 def controls_of_train(tree: Tree) -> list[Control]:
     """What the page shows of a train from the start."""
     stages = [control for name in tree[STAGES] for control in _of_stage(tree, name)]
-    return [*load_controls(tree), *stages, *(() if _own_friction(tree) else friction())]
+    return [*load_controls(tree), *stages, *(() if _own_friction(tree) else friction(tree))]
 
 
 def names_in_train(tree: Tree) -> list[str]:

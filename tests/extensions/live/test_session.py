@@ -126,8 +126,11 @@ def test_fields_of_a_train_by_stage(train):
 
 
 def test_a_relief_of_both_gears_is_one_slider(tree):
-    """It stands at the depth of the scene, and at zero the scene has none."""
-    page = Page(fields.changed(tree, ("tip_relief",), {"depth": "12 um", "start": "HPSTC"}))
+    """It stands at the depth of the scene. At zero the relief keeps where it begins and how, which it lost."""
+    relief = {"depth": "12 um", "length_on_path": "3 mm", "shape": "parabolic"}
+    page = Page(fields.changed(tree, ("tip_relief",), relief))
     assert page.field("tip_relief.depth")["number"] == 12.0
     page.do("set", name="tip_relief.depth", value=0.0)
-    assert page.session.tree == tree
+    assert scene_from_text(as_toml(page.session.tree)).tip_relief.pinion.depth == 0.0
+    page.do("set", name="tip_relief.depth", value=12.0)
+    assert page.session.tree["tip_relief"] == relief
