@@ -150,6 +150,12 @@ def _of_turns(train: TrainScene) -> list[tuple[str, int, int, float]]:
     return [(name, mesh, n, frequency) for name, mesh, frequency in found.values() for n in range(1, OF_A_TURN + 1)]
 
 
+def _together(names: list[str]) -> str:
+    """Names of meshes of one frequency; of more than two in one stage their number."""
+    stages = {name.partition(":")[0] for name in names}
+    return f"{stages.pop()}: its {len(names)} meshes" if len(names) > 2 and len(stages) == 1 else ", ".join(names)
+
+
 def overall_orders(result: xr.Dataset, train: TrainScene, *, turns: bool = False) -> list[OverallOrder]:
     """The first harmonics of each mesh frequency in the overall transmission error of a train's result, by their order;
     of meshes that have the same one, which an idler couples, the sum. Each has the `meshes`, the `harmonic`, the
@@ -173,7 +179,7 @@ def overall_orders(result: xr.Dataset, train: TrainScene, *, turns: bool = False
             known.append(each)
     found = []
     for group in alike:
-        names = ", ".join(each.name for each in group)
+        names = _together([each.name for each in group])
         spectra = [np.fft.rfft(each.values)[1 : HARMONICS + 1] * (2.0 / len(each.values)) for each in group]
         most = min(map(len, spectra))
         amplitudes = np.abs(sum(each[:most] for each in spectra))
