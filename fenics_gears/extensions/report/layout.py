@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from fenics_gears import SceneError, user_file
+from fenics_gears import MICRORADIANS, SceneError, user_file
 from fenics_gears.many_runs import LARGEST_OF_SETS, OF_TRAINS, RESULT_ATTRIBUTES
 from fenics_gears.pages import Cell, Letterhead, Page, PageSection, Table, Words
 from fenics_gears.scene_text import (
@@ -193,5 +193,6 @@ def _row(name: str, limit: Limit, numbers: Mapping[str, Any], micrometres: Any) 
     largest = limit.value
     over = value > largest if limit.end == "at_most" else value < largest
     off = f"off by {100.0 * abs(value / largest - 1.0):.2g} %" if over and largest else "not kept" if over else "kept"
-    computed = f"{digits(value)} {'' if limit.unit == '1' else limit.unit}".strip()
+    computed = f"{digits(MICRORADIANS * value)} urad" if limit.unit == "rad" else f"{digits(value)} {limit.unit}"
+    computed = computed.removesuffix(" 1")
     return [Cell(label), Cell(bound), Cell(computed), Cell(off, warns=over)]

@@ -33,7 +33,7 @@ def rows_of(folder, text, numbers=NUMBERS):
     [
         ('peak_to_peak_transmission_error = { at_most = "6 um" }', "5 um", "kept"),
         ('peak_to_peak_transmission_error = { at_most = "4 um" }', "5 um", "off by 25 %"),
-        ('peak_to_peak_transmission_error = { at_most = "0.2 mrad" }', "0.0001 rad", "kept"),
+        ('peak_to_peak_transmission_error = { at_most = "0.2 mrad" }', "100 urad", "kept"),
         ('mesh_efficiency = { at_least = "99 %" }', "0.98", "off by 1 %"),
         ("mesh_efficiency = { at_least = 0.97 }", "0.98", "kept"),
         ('largest_pair_force = { at_most = "2 kN" }', "2100 N", "off by 5 %"),
@@ -62,7 +62,7 @@ def test_limits_of_a_train_are_kept_by_its_worst_mesh(tmp_path):
         each for each in laid_out(PAGE, layout, numbers, np.array([5e4, 2e4])).sections if each.name == "limits"
     ]
     said = [[cell.text for cell in row][2:] for row in section.blocks[1].rows]
-    assert said == [["5 um", "off by 11 %"], ["0.0003 rad", "kept"], ["1.2", "off by 9.1 %"]]
+    assert said == [["5 um", "off by 11 %"], ["300 urad", "kept"], ["1.2", "off by 9.1 %"]]
     with pytest.raises(SceneError, match="is no limit of a number in rad"):
         layout_of(tmp_path, '[limits]\npeak_to_peak_overall_transmission_error = { at_most = "4 um" }')
 
