@@ -10,6 +10,7 @@ changes less. The browser draws without a graphics card.
 import os
 import random
 import sys
+import time
 from pathlib import Path
 from statistics import median
 from tempfile import TemporaryDirectory
@@ -28,29 +29,29 @@ SCENES = {
     "planetary set, floating sun": "planetary_sets/floating_sun.toml",
 }
 MOVES = 200
+# Of a scene, after which no further move begins.
+SECONDS = 200.0
 # Moves before the first one that counts, in which reliefs and friction come in for the first time.
-BEFORE = 20
+BEFORE = 10
 # Of the page's fields those that leave the bodies as they are.
 KEPT = "each.slides && !each.name.includes('profile_shift') && !each.name.includes('centre_distance')"
-HEADINGS = (
-    "scene", "first look drawn, ms", "answer, ms", "drawn, ms", "processor, ms",
-)  # fmt: skip
+HEADINGS = ("scene", "moves", "first look drawn, ms", "answer, ms", "drawn, ms", "processor, ms")
 WATCH = """
 const plain = { ...told };
-let waiting = null;
+let timed = null;
 told.result = message => {
   const there = performance.now();
   plain.result(message);
-  if (waiting && message.number > waiting.number) {
-    const drawn = performance.now() - waiting.begun;
-    if (message.first_look) waiting.first ??= drawn;
-    else { waiting.done([waiting.first ?? null, there - waiting.begun, drawn]); waiting = null; }
+  if (timed && message.number > timed.number) {
+    const drawn = performance.now() - timed.begun;
+    if (message.first_look) timed.first ??= drawn;
+    else { timed.done([timed.first ?? null, there - timed.begun, drawn]); timed = null; }
   }
 };
-told.failed = message => { plain.failed(message); waiting?.done(null); waiting = null; };
-told.state = message => { plain.state(message); if (message.problems.length) { waiting?.done(null); waiting = null; } };
+told.failed = message => { plain.failed(message); timed?.done(null); timed = null; };
+told.state = message => { plain.state(message); if (message.problems.length) { timed?.done(null); timed = null; } };
 window.move = (slider, value) => new Promise(done => {
-  waiting = { number: live.number, begun: performance.now(), done };
+  timed = { number: live.number, begun: performance.now(), done };
   slider.value = value;
   slider.dispatchEvent(new Event("input"));
 });
@@ -100,12 +101,15 @@ def measured(file: Path, moves: int) -> list[str]:
         for _ in range(BEFORE):
             page.once()
         begun = processor_seconds(process.pid)
-        found = [page.once() for _ in range(moves)]
+        end = time.monotonic() + SECONDS
+        found = []
+        while len(found) < moves and time.monotonic() < end:
+            found.append(page.once())
         spent = processor_seconds(process.pid) - begun
     counted = [each for each in found if each is not None]
     print(f"{file.name}: {len(found) - len(counted)} of {len(found)} moves were mistakes; {', '.join(page.names)}")
     looks, answers, drawings = ([each[n] for each in counted if each[n] is not None] for n in range(3))
-    return [words(looks), words(answers), words(drawings), f"{1000.0 * spent / moves:.0f}"]
+    return [str(len(counted)), *map(words, (looks, answers, drawings)), f"{1000.0 * spent / len(found):.0f}"]
 
 
 def main(moves: int = MOVES) -> None:

@@ -55,6 +55,8 @@ def _of_stage(tree: Tree, stage: str) -> Iterator[Control]:
             yield profile_shift(own, words, group, tree)
     if has_planets(content):
         for mesh, both in MESHES.items():
+            if mesh == "second_sun_mesh" and "second_sun" not in content:
+                continue
             yield from reliefs(tree, (*place, mesh), both, group)
     else:
         row = isinstance(content.get("gears"), list)

@@ -47,7 +47,9 @@ FIRST = ("geometry", LIMITS, "summary", "warnings")
 # Numbers of a result that may have a limit, by name, with their unit there.
 LIMITED = {each.name: each.units for each in RESULT_ATTRIBUTES if each.units}
 # Those of the whole train, which has no base circle.
-LIMITED_OF_TRAINS = {name: units for name, (units, _) in {**OF_TRAINS, **LARGEST_OF_SETS}.items() if name not in LIMITED}
+LIMITED_OF_TRAINS = {
+    name: units for name, (units, _) in {**OF_TRAINS, **LARGEST_OF_SETS}.items() if name not in LIMITED
+}
 LIMITED |= LIMITED_OF_TRAINS
 
 

@@ -21,7 +21,11 @@ def served(scene: Path) -> Iterator[tuple[str, subprocess.Popen]]:
             yield process.stdout.readline().strip(), process
         finally:
             process.send_signal(signal.SIGINT)
-            _, said = process.communicate(timeout=60)
+            try:
+                _, said = process.communicate(timeout=60)
+            except subprocess.TimeoutExpired:
+                process.kill()
+                raise
     assert process.returncode == 0 and said == "", said
 
 

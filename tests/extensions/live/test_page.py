@@ -135,10 +135,7 @@ def test_random_moves(page, names, moves, tmp_path):
         for _ in range(2):
             for number in range(moves // 2):
                 name = drawn.choice(names)
-                low, high = (
-                    float(browser.value(f"{slider(name)}.{each}"))
-                    for each in ("min", "max")
-                )
+                low, high = (float(browser.value(f"{slider(name)}.{each}")) for each in ("min", "max"))
                 moved(browser, name, drawn.uniform(low, high))
                 if number % WAITED_FOR == 0:
                     browser.wait(settled)

@@ -1,9 +1,11 @@
 """The scene as a page changes it."""
 
+from tests.extensions.live.conftest import SET
+
 from fenics_gears import as_toml, scene_from_text, train_from_text
 from fenics_gears.extensions.live.computing import Work
 from fenics_gears.extensions.live.session import Session
-from fenics_gears.scene_text import fields, value_at
+from fenics_gears.scene_text import fields, parsed, value_at
 
 DEPTH = "tip_relief.pinion.depth"
 
@@ -123,6 +125,16 @@ def test_fields_of_a_train_by_stage(train):
     assert "tip_relief" not in page.session.tree["stages"]["idler"]
     page.do("show", name="stages.idler.face_width")
     assert page.field("stages.idler.face_width")["text"] == "20 mm"
+
+
+def test_a_set_without_a_second_sun_has_no_sliders_for_it():
+    """They could only give mistakes; those of the sun's and the ring's meshes are there."""
+    names = {
+        each["name"].split(".")[2]
+        for each in Page(dict(parsed(SET, "set.toml")), True).session.state["controls"]
+        if each["name"].startswith("stages.set.")
+    }
+    assert names == {"sun", "planet", "ring", "sun_mesh", "ring_mesh"}
 
 
 def test_a_relief_of_both_gears_is_one_slider(tree):

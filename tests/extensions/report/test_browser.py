@@ -82,7 +82,9 @@ def test_all_charts_are_there_to_be_printed(browser, report):
     browser.wait(f"{charts}.every(figure => {whole})")
     ends = "figure.getBoundingClientRect().bottom - figure.querySelector('img').getBoundingClientRect().bottom"
     assert browser.value(f"Math.min(...{charts}.map(figure => {ends}))") >= 0
-    assert browser.value(f"{PLOTS}.every(plot => !plot.querySelector('svg') || plot.getBoundingClientRect().height === 0)")
+    assert browser.value(
+        f"{PLOTS}.every(plot => !plot.querySelector('svg') || plot.getBoundingClientRect().height === 0)"
+    )
     assert browser.value("[...document.querySelectorAll('details')].every(each => each.open)")
     assert browser.console == []
 
