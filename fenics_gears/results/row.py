@@ -111,7 +111,7 @@ class RowResult:
         found = key_numbers(counted, model.pair, None, False) | {
             "mean_transmission_error": float(error[:-1].mean()),
             "peak_to_peak_transmission_error": float(np.ptp(error)),
-            "base_radius_wheel": model.pair.wheel.base_radius,
+            "base_radius_wheel": abs(model.pair.wheel.base_radius),
             "steps_per_mesh_cycle": recorder.cycle.steps,
             "newton_iterations_total": int(counted["newton_iterations"][1:].sum()),
             "steps": recorder.steps - 1,

@@ -50,6 +50,11 @@ def summary_rows(dataset, stages: Sequence[tuple[str, float]] = ()) -> list[Row]
     ]
 
 
+def four_digits(value: float) -> str:
+    """A number as it is printed: never with a power of ten below a million."""
+    return f"{value:.0f}" if 1e4 <= abs(value) < 1e6 else f"{value:.4g}"
+
+
 def what_is_there(dataset, steps: int, cycles: int) -> str:
     """How much of a run of so many steps and mesh cycles a result has that ended before it."""
     last = dataset.isel(time=-1)
@@ -114,7 +119,7 @@ def _pair_force(numbers) -> Said:
     if not numbers.get("largest_pair_force"):
         return
     place = f"at mesh cycle {numbers['largest_pair_force_mesh_phase']:.4g}"
-    yield "largest force of a tooth pair", f"{numbers['largest_pair_force']:.4g} N {place}"
+    yield "largest force of a tooth pair", f"{four_digits(numbers['largest_pair_force'])} N {place}"
     if "dynamic_factor_by_force" in numbers:
         by = "dynamic_factor_by_stress"
         stress = f", {numbers[by]:.3f} by root stress" if by in numbers else ""
@@ -147,8 +152,8 @@ def _shafts(numbers) -> Said:
             words = f"{inside:.4g} um in the plane of action, {outside:.4g} um out of it{over}"
             yield f"{kind} of the axes, mean", words
         balls = numbers.get("largest_rolling_element_force")
-        rolling = "" if balls is None else f", of a rolling element {balls:.4g} N"
-        yield "largest force of a bearing", f"{numbers['largest_bearing_force']:.4g} N{rolling}"
+        rolling = "" if balls is None else f", of a rolling element {four_digits(balls)} N"
+        yield "largest force of a bearing", f"{four_digits(numbers['largest_bearing_force'])} N{rolling}"
         if "natural_frequencies" in numbers:
             yield "natural frequencies", _frequencies(numbers["natural_frequencies"].splitlines())
 

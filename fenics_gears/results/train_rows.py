@@ -9,6 +9,7 @@ from .key_numbers import MICROMETRE
 from .layout import OF_OUTPUTS, OVERALL, in_microradians
 from .planetary import MEMBER, PLANET, kinds_of_meshes
 from .sets_in_train import MESH, SET, set_runs
+from .summary import four_digits
 
 Rows = list[tuple[str, str, str]]
 OF_SHAFTS = (
@@ -101,4 +102,4 @@ def _of_meshes(name: str, own: Mapping[str, np.ndarray]) -> Iterator[tuple[str, 
     """The largest numbers of one mesh, or of several alike."""
     for number, label, unit in OF_MESHES:
         if number in own and not np.isnan(own[number]).all():
-            yield f"{name}: {label}", f"{np.nanmax(own[number]):.4g}", unit
+            yield f"{name}: {label}", four_digits(np.nanmax(own[number])), unit

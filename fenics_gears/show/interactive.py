@@ -4,7 +4,6 @@ Only its browser library is used: plotly's Python objects take longer to make th
 """
 
 import html
-import math
 from typing import Any
 
 import numpy as np
@@ -16,6 +15,7 @@ FONT = "system-ui, -apple-system, 'Segoe UI', Roboto, 'Helvetica Neue', Arial, '
 GRID = "#E9ECEF"
 # More digits than a screen shows; curves such as the transmission error vary by a hundredth of their mean.
 DIGITS = 7
+POWERS = np.array([float(f"1e{n}") for n in range(300)])
 # Pixels, and letters in a row of a legend on a usual page.
 LEGEND_ROW = 19
 LETTERS_A_ROW = 120
@@ -42,7 +42,7 @@ def figure(chart: Chart) -> dict:
         scale = [[place / (len(field.colours) - 1), colour] for place, colour in enumerate(field.colours)]
         lowest = min(0.0, float(np.nanmin(field.values, initial=0.0)))
         bar = {"title": {"text": escaped(field.title), "side": "right"}, "thickness": 14}
-        cells = {"x": numbers(field.x), "y": numbers(field.y), "z": [numbers(row, 4) for row in field.values]}
+        cells = {"x": numbers(field.x), "y": numbers(field.y), "z": numbers(field.values, 4)}
         look = {"colorscale": scale, "zmin": lowest, "zmax": field.limit, "colorbar": bar, "hoverongaps": False}
         traces.insert(0, {"type": "heatmap", "name": ""} | look | cells)
     layout = _layout(chart)
@@ -152,12 +152,23 @@ def escaped(text: str) -> str:
 
 
 def numbers(values: np.ndarray, digits: int = DIGITS) -> list:
-    """Values (n,) as a list of numbers with as many digits as a chart shows, None where there is none; words stay
-    words."""
+    """Values of any shape as a list of numbers with as many digits as a chart shows, None where there is none; words
+    stay words.
+
+    >>> numbers(np.array([[1234567.0, -0.00123456], [np.nan, 0.0]]), 3)
+    [[1230000.0, -0.00123], [None, 0.0]]
+    """
     array = np.asarray(values)
     if array.dtype.kind not in "fiub":
         return [escaped(str(each)) for each in array]
-    return [float(f"{each:.{digits}g}") if math.isfinite(each) else None for each in array.astype(float).tolist()]
+    array = array.astype(float)
+    known = np.isfinite(array)
+    sizes = np.log10(np.abs(array), where=known & (array != 0.0), out=np.full(array.shape, digits - 1.0))
+    places = digits - 1 - np.floor(sizes).astype(int)
+    # Exact powers of ten, by which a rounded integer is the nearest number to its decimals.
+    up, down = (POWERS[np.clip(each, 0, len(POWERS) - 1)] for each in (places, -places))
+    rounded = np.rint(np.where(known, array, 0.0) * up / down) / up * down
+    return (rounded if known.all() else np.where(known, rounded, None)).tolist()
 
 
 def _traces(curve: Curve, chart: Chart) -> list[dict]:

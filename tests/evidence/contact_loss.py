@@ -103,7 +103,7 @@ def measured(_: str) -> Numbers:
 
 PART = Part(
     "contact_loss", EXACT, "experiments.md#contact-loss-over-speed",
-    {"softening": Claim("mesh frequency where vibration is largest as teeth separate, 50/50 pair",
+    {"softening": Claim("mesh frequency at resonance, teeth separating, 50 and 50 teeth",
                         "free vibration of a mass on a spring that only presses", "Hz", within(0.03),
                         "the mesh stiffness varies; the speed falls while the vibration grows")},
     measured, minutes=1.5,

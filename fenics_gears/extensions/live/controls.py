@@ -90,7 +90,7 @@ class Control:
 def controls_of(tree: Tree, over_face: bool) -> list[Control]:
     """What the page shows from the start; `over_face`: whether the flanks are resolved over the face."""
     along = _over_the_face(tree) if over_face else ()
-    return [*_load(tree), *_gears(tree), *reliefs(tree, (), GEARS, "Reliefs"), *along, *friction()]
+    return [*_load(tree), *_gears(tree), *reliefs(tree, (), GEARS, "Reliefs"), *along, *friction(tree)]
 
 
 def reach(tree: Tree, controls: Sequence[Control]) -> list[Tree]:
@@ -146,17 +146,19 @@ def profile_shift(path: Path, gear: str, group: str, tree: Tree) -> Control:
 
 def reliefs(tree: Tree, place: Path, names: tuple[str, str], group: str) -> Iterator[Control]:
     """Of the mesh whose sections are at a place of the scene; `names`: what its pinion and its wheel are called. A
-    depth of both gears is one field."""
+    depth of both gears is one field. A relief of the scene keeps its start and shape at depth zero."""
     for section, words, start in (("tip_relief", "tip relief", "HPSTC"), ("root_relief", "root relief", "LPSTC")):
         own = (*place, section)
         of_both = Control((*own, "depth"), f"{words}, {' and '.join(names)}", group, "um", (0.0, 50.0))
-        if value_at(tree, *of_both.path) is not None:
-            yield replace(of_both, absent=own)
+        both = value_at(tree, *of_both.path) is not None
+        if both:
+            yield of_both
         for gear, name in zip(GEARS, names):
             path = (*own, gear, "depth")
-            if value_at(tree, *of_both.path) is None or value_at(tree, *path) is not None:
-                control = Control(path, f"{words}, {name}", group, "um", (0.0, 50.0), start=start)
-                yield replace(control, absent=path[:-1] if value_at(tree, *of_both.path) is None else None)
+            there = value_at(tree, *path) is not None
+            if there or not both:
+                absent = None if there else path[:-1]
+                yield Control(path, f"{words}, {name}", group, "um", (0.0, 50.0), absent=absent, start=start)
 
 
 def _over_the_face(tree: Tree) -> Iterator[Control]:
@@ -170,9 +172,11 @@ def _over_the_face(tree: Tree) -> Iterator[Control]:
     yield Control(misaligned, "misalignment in the plane of action", group, "um", (-60.0, 60.0))
 
 
-def friction() -> Iterator[Control]:
+def friction(tree: Tree) -> Iterator[Control]:
+    """The coefficient, where no formula gives it."""
     path = ("friction", "coefficient")
-    yield Control(path, "coefficient of friction", "Friction", "", (0.0, 0.2), absent=("friction",))
+    if value_at(tree, "friction", "formula") is None:
+        yield Control(path, "coefficient of friction", "Friction", "", (0.0, 0.2), absent=("friction",))
 
 
 def twice(path: Path, label: str, group: str, tree: Tree) -> Control:

@@ -21,7 +21,7 @@ MESHES = {
 def controls_of_train(tree: Tree) -> list[Control]:
     """What the page shows of a train from the start."""
     stages = [control for name in tree[STAGES] for control in _of_stage(tree, name)]
-    return [*load_controls(tree), *stages, *(() if _own_friction(tree) else friction())]
+    return [*load_controls(tree), *stages, *(() if _own_friction(tree) else friction(tree))]
 
 
 def names_in_train(tree: Tree) -> list[str]:
@@ -55,6 +55,8 @@ def _of_stage(tree: Tree, stage: str) -> Iterator[Control]:
             yield profile_shift(own, words, group, tree)
     if has_planets(content):
         for mesh, both in MESHES.items():
+            if mesh == "second_sun_mesh" and "second_sun" not in content:
+                continue
             yield from reliefs(tree, (*place, mesh), both, group)
     else:
         row = isinstance(content.get("gears"), list)

@@ -13,8 +13,10 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from fenics_gears import SceneError, user_file
-from fenics_gears.many_runs import RESULT_ATTRIBUTES
+import numpy as np
+
+from fenics_gears import MICRORADIANS, SceneError, user_file
+from fenics_gears.many_runs import LARGEST_OF_SETS, OF_TRAINS, RESULT_ATTRIBUTES
 from fenics_gears.pages import Cell, Letterhead, Page, PageSection, Table, Words
 from fenics_gears.scene_text import (
     Limit,
@@ -38,11 +40,17 @@ PICTURES = {".png": "image/png", ".svg": "image/svg+xml", ".jpg": "image/jpeg", 
 LARGEST_LOGO = 2_000_000
 LONGEST = 200
 LIMITS = "limits"
+UNKNOWN = "not in this run"
 SECTIONS = "sections"
 # Gear data stand on the first page, then what matters.
 FIRST = ("geometry", LIMITS, "summary", "warnings")
 # Numbers of a result that may have a limit, by name, with their unit there.
 LIMITED = {each.name: each.units for each in RESULT_ATTRIBUTES if each.units}
+# Those of the whole train, which has no base circle.
+LIMITED_OF_TRAINS = {
+    name: units for name, (units, _) in {**OF_TRAINS, **LARGEST_OF_SETS}.items() if name not in LIMITED
+}
+LIMITED |= LIMITED_OF_TRAINS
 
 
 def _words(meaning: str, otherwise: str = "none") -> Any:
@@ -111,7 +119,8 @@ def _limits(table: Any, problems: list[Problem]) -> Iterator[tuple[str, Limit]]:
     for name, ends in table.items():
         message = f"is no number of a result that can have a limit.{did_you_mean(name, LIMITED)}"
         if name in LIMITED:
-            units = (LIMITED[name], "um") if LIMITED[name] == "rad" else (LIMITED[name],)
+            along = LIMITED[name] == "rad" and name not in LIMITED_OF_TRAINS
+            units = (LIMITED[name], "um") if along else (LIMITED[name],)
             found = limits_of(ends, *units)
             if found is not None:
                 yield from ((name, each) for each in found)
@@ -137,9 +146,10 @@ def _logo(layout: Path, name: str | None) -> str:
     return f"data:{kind};base64,{base64.b64encode(content).decode()}"
 
 
-def laid_out(page: Page, layout: ReportLayout, numbers: Mapping[str, Any], micrometres: float) -> Page:
+def laid_out(page: Page, layout: ReportLayout, numbers: Mapping[str, Any], micrometres: Any) -> Page:
     """The page with the head, the sections and the limits of a layout; `numbers`: of the result, `micrometres`: of one
-    radian of the wheel along the line of action. Raises SceneError for a section that the page has not."""
+    radian of the wheel along the line of action; of a train both of all its meshes (n,), of which the worst counts.
+    Raises SceneError for a section that the page has not."""
     by_name = {each.name: each for each in page.sections}
     if layout.limits:
         by_name[LIMITS] = _limit_section(layout.limits, numbers, micrometres)
@@ -160,24 +170,31 @@ def laid_out(page: Page, layout: ReportLayout, numbers: Mapping[str, Any], micro
     return replace(page, title=head.title or page.title, sections=sections, letterhead=letterhead)
 
 
-def _limit_section(limits: Sequence[tuple[str, Limit]], numbers: Mapping[str, Any], micrometres: float) -> PageSection:
+def _limit_section(limits: Sequence[tuple[str, Limit]], numbers: Mapping[str, Any], micrometres: Any) -> PageSection:
     """A table of the limits: what was computed, and whether it is kept."""
     rows = [_row(*each, numbers, micrometres) for each in limits]
-    broken = sum(each[-1].warns for each in rows)
-    said = f"{broken} of {len(rows)} limits {'is' if broken == 1 else 'are'} not kept." if broken else "All are kept."
+    unknown = sum(each[-1].text == UNKNOWN for each in rows)
+    broken = sum(each[-1].warns for each in rows) - unknown
+    said = [
+        f"{count} of {len(rows)} limits {'is' if count == 1 else 'are'} {words}."
+        for count, words in ((broken, "not kept"), (unknown, "on numbers that this run does not have"))
+        if count
+    ]
     table = Table(("number", "limit", "computed", "result"), rows, numbers=1)
-    return PageSection(LIMITS, "Limits", [Words(said, warns=bool(broken)), table])
+    return PageSection(LIMITS, "Limits", [Words(" ".join(said) or "All are kept.", warns=bool(said)), table])
 
 
-def _row(name: str, limit: Limit, numbers: Mapping[str, Any], micrometres: float) -> list[Cell]:
+def _row(name: str, limit: Limit, numbers: Mapping[str, Any], micrometres: Any) -> list[Cell]:
     label = name.replace("_", " ")
     bound = f"{limit.end.replace('_', ' ')} {limit.written}"
     # An angle may have its limit as a length on the wheel's base circle.
-    value = float(numbers.get(name, math.nan)) * (micrometres if limit.unit != LIMITED[name] else 1.0)
+    values = np.asarray(numbers.get(name, math.nan)) * (micrometres if limit.unit != LIMITED[name] else 1.0)
+    value = float(np.fmax.reduce(values, None) if limit.end == "at_most" else np.fmin.reduce(values, None))
     if not math.isfinite(value):
-        return [Cell(label), Cell(bound), Cell("-"), Cell("not in this run", warns=True)]
+        return [Cell(label), Cell(bound), Cell("-"), Cell(UNKNOWN, warns=True)]
     largest = limit.value
     over = value > largest if limit.end == "at_most" else value < largest
     off = f"off by {100.0 * abs(value / largest - 1.0):.2g} %" if over and largest else "not kept" if over else "kept"
-    computed = f"{digits(value)} {'' if limit.unit == '1' else limit.unit}".strip()
+    computed = f"{digits(MICRORADIANS * value)} urad" if limit.unit == "rad" else f"{digits(value)} {limit.unit}"
+    computed = computed.removesuffix(" 1")
     return [Cell(label), Cell(bound), Cell(computed), Cell(off, warns=over)]

@@ -54,6 +54,8 @@ from .overview import warnings
 from .power_flow import power_flow
 
 LISTED_ORDERS = 20
+# Of the largest amplitude; what is below is round-off.
+LEAST_LISTED = 1e-6
 
 
 def train_page(dataset: xr.Dataset, file: Path, progress: Progress | None = None) -> Page:
@@ -257,12 +259,14 @@ def _orders(dataset: xr.Dataset, train: TrainScene) -> PageSection:
     if train.shafts.ramp is not None:
         return PageSection("orders", "Orders of the overall transmission error over the speed", charts)
     found = sorted(overall_orders(dataset, train, turns=True), key=lambda each: -each.amplitude)[:LISTED_ORDERS]
+    least = LEAST_LISTED * max((each.amplitude for each in found), default=0.0)
     rows = [
         (
             each.meshes, f"{each.harmonic}", f"{each.order:.5g}", digits(MICRORADIANS * each.amplitude),
             *((digits(each.frequency),) if train.speed_given else ()),
         )
         for each in found
+        if each.amplitude > least
     ]  # fmt: skip
     of_speed = ("Frequency (Hz)",) if train.speed_given else ()
     headings = ("Mesh", "Harmonic", "Order of the first shaft", "Amplitude (µrad)", *of_speed)

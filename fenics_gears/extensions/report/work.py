@@ -58,7 +58,7 @@ class _Writing:
     output: Path
     layout: Any
 
-    def write(self, page: Page, numbers: Mapping[str, Any], micrometres: float = nan) -> Path:
+    def write(self, page: Page, numbers: Mapping[str, Any], micrometres: Any = nan) -> Path:
         """Write the page; `numbers`: of its result, `micrometres`: of one radian of the wheel."""
         shown = page if self.layout is None else laid_out(page, self.layout, numbers, micrometres)
         text = rendered(shown)
@@ -108,7 +108,9 @@ def _run(options: argparse.Namespace, file: Path, writing: _Writing, progress) -
     if OVERALL in dataset:
         if options.effects or options.at is not None:
             raise SceneError(f"--effects and --at are for the run of a pair. {stages_beside(file)}")
-        return [writing.write(train_page(dataset, file, progress), dataset.attrs)]
+        meshes = {str(name): of.values for name, of in dataset.variables.items() if of.dims == ("mesh",)}
+        micrometres = 1e3 * meshes["base_radius_wheel"]
+        return [writing.write(train_page(dataset, file, progress), meshes | dataset.attrs, micrometres)]
     run = ShownRun(dataset, file, at=options.at, stress=not options.no_stress)
     written = []
     if options.at is not None and run.steps:

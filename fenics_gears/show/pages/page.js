@@ -16,7 +16,7 @@ for (const table of document.querySelectorAll("table.sortable")) {
   }));
 }
 
-// Charts are images until they come near the window; then they are drawn anew, to be zoomed. What is printed needs none of this.
+// Charts are images until they come near the window; then they are drawn anew, to be zoomed. What is printed is the image, whole on any paper.
 (async () => {
   const packed = document.getElementById("library"), plots = [...document.querySelectorAll(".curves")];
   if (!packed) return;
@@ -39,6 +39,8 @@ for (const table of document.querySelectorAll("table.sortable")) {
     if (drawn.has(plot)) return;
     drawn.add(plot);
     const figure = JSON.parse(plot.querySelector("script").textContent), name = plot.getAttribute("aria-label").replace(/[^\w]+/g, "_");
+    plot.after(Object.assign(plot.querySelector("img"), { className: "still" }));
+    plot.classList.add("drawn");
     plot.replaceChildren();
     plot.style.height = plot.style.minHeight;
     const range = shared[plot.dataset.linked];
@@ -71,7 +73,6 @@ for (const table of document.querySelectorAll("table.sortable")) {
   plots.forEach(plot => near.observe(plot));
   window.addEventListener("beforeprint", () => {
     document.querySelectorAll("details").forEach(each => { each.open = true; });
-    drawn.forEach(plot => Plotly.Plots.resize(plot));
   });
   document.documentElement.dataset.ready = "yes";
 })();

@@ -91,7 +91,7 @@ def _number(value: Any) -> str:
 
 def _micro(text: str) -> str:
     """Text of the terminal with the unit as pages have it."""
-    return re.sub(r"\bum\b", "µm", text)
+    return re.sub(r"\bu(m|rad)\b", r"µ\1", text)
 
 
 def _base64(content: bytes) -> str:

@@ -45,6 +45,38 @@ flank_element_size = "0.15 mm"
 steps_per_mesh_cycle = 20
 """
 
+SET = """
+[stages.set]
+kind = "planetary"
+module = "4 mm"
+pressure_angle = "20 deg"
+face_width = "50 mm"
+planets = 3
+sun = { teeth = 17, profile_shift = 0, bore_diameter = "20 mm" }
+planet = { teeth = 22, profile_shift = 0, bore_diameter = "40 mm" }
+ring = { teeth = 61, profile_shift = 0, outer_diameter = "280 mm", cutter = { teeth = 23 }, support = "held" }
+material = "steel"
+fixed = "ring"
+input = "sun"
+output = "carrier"
+floating = ["sun"]
+
+[stages.set.sun_mesh.tip_relief]
+depth = "30 um"
+start = "HPSTC"
+
+[load]
+input_torque = "1 kN m"
+
+[motion]
+input_speed = "1500 rpm"
+
+[accuracy]
+element = "P1"
+flank_element_size = "0.15 mm"
+steps_per_mesh_cycle = 20
+"""
+
 
 @pytest.fixture
 def tree():

@@ -3,16 +3,14 @@
 import random
 import re
 import resource
-import signal
-import subprocess
 import urllib.error
 import urllib.request
 from pathlib import Path
 
 import pytest
-from tests.extensions.live.conftest import PAIR, TRAIN
+from tests.extensions.live.conftest import PAIR, SET, TRAIN
+from tests.extensions.live.driven import family, moved, opened, served, slider
 from tests.extensions.report.browser import CHROMIUM, Browser
-from tests.programs import command, environment
 
 _needs_browser = pytest.mark.skipif(CHROMIUM is None, reason="no chromium")
 DEPTH = "tip_relief.wheel.depth"
@@ -20,6 +18,10 @@ OF_PAIR = DEPTH, "tip_relief.pinion.depth", "root_relief.wheel.depth", "load.whe
 OF_TRAIN = (
     "stages.idler.tip_relief.wheel.depth", "stages.idler.tip_relief.pinion.depth", "load.output_torque",
     "stages.idler.gears.2.profile_shift", "friction.coefficient",
+)  # fmt: skip
+OF_SET = (
+    "stages.set.sun_mesh.tip_relief.depth", "stages.set.ring_mesh.tip_relief.wheel.depth", "load.input_torque",
+    "friction.coefficient",
 )  # fmt: skip
 # Of these each fifth is waited for, the others are given up for the next.
 WAITED_FOR = 5
@@ -31,16 +33,8 @@ def page(tmp_path, request):
     """The address of a page that runs until the test ends, which Ctrl-C ends without a word; and its process."""
     file = tmp_path / "pair.toml"
     file.write_text(getattr(request, "param", PAIR))
-    call = command("live", file, "--no-browser")
-    with subprocess.Popen(
-        call, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment()
-    ) as process:
-        try:
-            yield process.stdout.readline().strip(), process
-        finally:
-            process.send_signal(signal.SIGINT)
-            _, said = process.communicate(timeout=60)
-    assert process.returncode == 0 and said == "", said
+    with served(file) as found:
+        yield found
     assert [each.name for each in tmp_path.iterdir() if not each.name.startswith("profile")] == ["pair.toml"]
 
 
@@ -62,23 +56,10 @@ def test_nobody_gets_in_without_the_token(page):
         assert answer.status == 200 and b"[gears]" in answer.read()
 
 
-def opened(browser, address):
-    browser.visit(address, 1500, 1100)
-    browser.wait("window.live && live.result !== null && !live.result.first_look")
-
-
-def moved(browser, name, value):
-    """A slider, as by hand."""
-    slider = f"document.querySelector('input[type=range][data-name=\"{name}\"]')"
-    browser.value(f"{slider}.value = {value}, {slider}.dispatchEvent(new Event('input')), true")
-
-
 def resident(process):
     """Memory (bytes) of a process and of those that it has started."""
-    own = Path(f"/proc/{process}")
-    pages = int((own / "statm").read_text().split()[1])
-    children = (own / f"task/{process}/children").read_text().split()
-    return pages * resource.getpagesize() + sum(map(resident, children))
+    pages = (int(Path(f"/proc/{each}/statm").read_text().split()[1]) for each in family(process))
+    return sum(pages) * resource.getpagesize()
 
 
 def peak(browser):
@@ -136,9 +117,9 @@ def test_a_train_in_the_browser(page, tmp_path):
 @pytest.mark.nightly
 @pytest.mark.parametrize(
     ("page", "names", "moves"),
-    [(PAIR, OF_PAIR, 1000), (TRAIN, OF_TRAIN, 100)],
+    [(PAIR, OF_PAIR, 1000), (TRAIN, OF_TRAIN, 200), (SET, OF_SET, 200)],
     indirect=["page"],
-    ids=["pair", "train"],
+    ids=["pair", "train", "set"],
 )
 def test_random_moves(page, names, moves, tmp_path):
     """No stuck page, no growing memory: the browser's and the program's after the second half are those after the
@@ -154,10 +135,7 @@ def test_random_moves(page, names, moves, tmp_path):
         for _ in range(2):
             for number in range(moves // 2):
                 name = drawn.choice(names)
-                low, high = (
-                    float(browser.value(f"document.querySelector('[data-name=\"{name}\"]').{each}"))
-                    for each in ("min", "max")
-                )
+                low, high = (float(browser.value(f"{slider(name)}.{each}")) for each in ("min", "max"))
                 moved(browser, name, drawn.uniform(low, high))
                 if number % WAITED_FOR == 0:
                     browser.wait(settled)

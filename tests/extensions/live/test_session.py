@@ -1,9 +1,11 @@
 """The scene as a page changes it."""
 
+from tests.extensions.live.conftest import SET
+
 from fenics_gears import as_toml, scene_from_text, train_from_text
 from fenics_gears.extensions.live.computing import Work
 from fenics_gears.extensions.live.session import Session
-from fenics_gears.scene_text import fields, value_at
+from fenics_gears.scene_text import fields, parsed, value_at
 
 DEPTH = "tip_relief.pinion.depth"
 
@@ -125,9 +127,22 @@ def test_fields_of_a_train_by_stage(train):
     assert page.field("stages.idler.face_width")["text"] == "20 mm"
 
 
+def test_a_set_without_a_second_sun_has_no_sliders_for_it():
+    """They could only give mistakes; those of the sun's and the ring's meshes are there."""
+    names = {
+        each["name"].split(".")[2]
+        for each in Page(dict(parsed(SET, "set.toml")), True).session.state["controls"]
+        if each["name"].startswith("stages.set.")
+    }
+    assert names == {"sun", "planet", "ring", "sun_mesh", "ring_mesh"}
+
+
 def test_a_relief_of_both_gears_is_one_slider(tree):
-    """It stands at the depth of the scene, and at zero the scene has none."""
-    page = Page(fields.changed(tree, ("tip_relief",), {"depth": "12 um", "start": "HPSTC"}))
+    """It stands at the depth of the scene. At zero the relief keeps where it begins and how, which it lost."""
+    relief = {"depth": "12 um", "length_on_path": "3 mm", "shape": "parabolic"}
+    page = Page(fields.changed(tree, ("tip_relief",), relief))
     assert page.field("tip_relief.depth")["number"] == 12.0
     page.do("set", name="tip_relief.depth", value=0.0)
-    assert page.session.tree == tree
+    assert scene_from_text(as_toml(page.session.tree)).tip_relief.pinion.depth == 0.0
+    page.do("set", name="tip_relief.depth", value=12.0)
+    assert page.session.tree["tip_relief"] == relief

@@ -71,11 +71,20 @@ def test_a_plot_that_is_drawn_later_has_the_zoom_of_the_others(browser, report):
 
 
 def test_all_charts_are_there_to_be_printed(browser, report):
-    """What the window has not come to is an image; folded parts are opened."""
+    """Each is an image, also one that was drawn for the screen, none below another; folded parts are opened."""
     browser.open(report, 1300, 900)
+    browser.wait(f"{PLOTS}[0].querySelector('svg.main-svg') !== null")
+    browser._call("Emulation.setEmulatedMedia", media="print")
     browser.value("dispatchEvent(new Event('beforeprint'))")
-    image = "plot.querySelector('img')?.complete && plot.querySelector('img').getBoundingClientRect().height > 150"
-    browser.wait(f"{PLOTS}.every(plot => plot.querySelector('svg.main-svg .cartesianlayer path') || ({image}))")
+    image = "[...figure.querySelectorAll('img')]"
+    charts = f"{PLOTS}.map(plot => plot.closest('figure'))"
+    whole = f"{image}.length === 1 && {image}[0].complete && {image}[0].getBoundingClientRect().height > 100"
+    browser.wait(f"{charts}.every(figure => {whole})")
+    ends = "figure.getBoundingClientRect().bottom - figure.querySelector('img').getBoundingClientRect().bottom"
+    assert browser.value(f"Math.min(...{charts}.map(figure => {ends}))") >= 0
+    assert browser.value(
+        f"{PLOTS}.every(plot => !plot.querySelector('svg') || plot.getBoundingClientRect().height === 0)"
+    )
     assert browser.value("[...document.querySelectorAll('details')].every(each => each.open)")
     assert browser.console == []
 

@@ -2,6 +2,7 @@
 
 import datetime
 
+import numpy as np
 import pytest
 
 from fenics_gears.errors import SceneError
@@ -32,7 +33,7 @@ def rows_of(folder, text, numbers=NUMBERS):
     [
         ('peak_to_peak_transmission_error = { at_most = "6 um" }', "5 um", "kept"),
         ('peak_to_peak_transmission_error = { at_most = "4 um" }', "5 um", "off by 25 %"),
-        ('peak_to_peak_transmission_error = { at_most = "0.2 mrad" }', "0.0001 rad", "kept"),
+        ('peak_to_peak_transmission_error = { at_most = "0.2 mrad" }', "100 urad", "kept"),
         ('mesh_efficiency = { at_least = "99 %" }', "0.98", "off by 1 %"),
         ("mesh_efficiency = { at_least = 0.97 }", "0.98", "kept"),
         ('largest_pair_force = { at_most = "2 kN" }', "2100 N", "off by 5 %"),
@@ -44,6 +45,26 @@ def test_limits_are_compared_in_their_units(tmp_path, limit, computed, result):
     ((_, _, found, said),), words = rows_of(tmp_path, limit)
     assert (found, said) == (computed, result)
     assert words.warns == (result != "kept")
+
+
+def test_limits_of_a_train_are_kept_by_its_worst_mesh(tmp_path):
+    """By hand: 100 and 200 urad are 5 and 4 um on wheels of 50 and 20 mm; the whole has no base circle."""
+    numbers = {
+        "peak_to_peak_transmission_error": np.array([1e-4, 2e-4]), "peak_to_peak_overall_transmission_error": 3e-4,
+        "load_sharing_factor": 1.2,
+    }  # fmt: skip
+    text = (
+        'peak_to_peak_transmission_error = { at_most = "4.5 um" }\n'
+        'peak_to_peak_overall_transmission_error = { at_most = "0.4 mrad" }\nload_sharing_factor = { at_most = 1.1 }'
+    )
+    layout = layout_of(tmp_path, f"[limits]\n{text}")
+    (section,) = [
+        each for each in laid_out(PAGE, layout, numbers, np.array([5e4, 2e4])).sections if each.name == "limits"
+    ]
+    said = [[cell.text for cell in row][2:] for row in section.blocks[1].rows]
+    assert said == [["5 um", "off by 11 %"], ["300 urad", "kept"], ["1.2", "off by 9.1 %"]]
+    with pytest.raises(SceneError, match="is no limit of a number in rad"):
+        layout_of(tmp_path, '[limits]\npeak_to_peak_overall_transmission_error = { at_most = "4 um" }')
 
 
 def test_the_head_says_whose_report_it_is(tmp_path):

@@ -1,6 +1,10 @@
 """Reports on runs and studies of trains."""
 
+import re
+
 import pytest
+from tests.extensions.live.conftest import SET
+from tests.extensions.report.pages import seen
 from tests.planets import in_time
 from tests.trains import bent_two_stages, gearbox_file, split_text
 
@@ -34,6 +38,18 @@ def test_each_mesh_has_a_section(tmp_path):
     _, page = page_of(scene, tmp_path)
     for heading in ("Power flow", "Orders of the overall transmission error", "Mesh: first", "Mesh: second"):
         assert heading in page
+
+
+def test_errors_of_a_ring_are_lengths_and_orders_name_the_set(tmp_path):
+    """The base circle of a ring has a radius, though its sign in the equations is negative; its meshes have one mesh
+    frequency, whose harmonics beside those of the period of all planets are round-off."""
+    scene = tmp_path / "set.toml"
+    scene.write_text(SET)
+    page_of(scene, tmp_path)
+    shown = seen(tmp_path / "out" / "report.html").sections
+    lengths = re.findall(r"transmission error, (?:peak to peak|mean)\s*(\S+) µm = (\S+) rad", shown["mesh-2"])
+    assert len(lengths) == 2 and all(float(each) > 0.0 for pair in lengths for each in pair)
+    assert "set: sun and planets, set: planets and ring" in shown["orders"] and not re.search(r"e-\d\d", shown["orders"])
 
 
 def test_stages_that_move_together_have_natural_frequencies(tmp_path):
