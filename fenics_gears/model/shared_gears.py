@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from itertools import combinations
-from math import isclose
+from math import ceil, floor, isclose
 
 import numpy as np
 
@@ -20,6 +20,8 @@ from .model import Model
 # Reliefs (mm) of one flank that two meshes may have differently, and places along it that are compared.
 ROUND_OFF = 1e-9
 PLACES = 101
+# Of differences of phases, in mesh cycles.
+PHASE_ROUND_OFF = 1e-9
 
 
 def couplings(layout: Layout, gear: int) -> list[SharedGear]:
@@ -34,7 +36,7 @@ def reach_of(models: Sequence[Model], layout: Layout, gear: int) -> Reach:
     same = max(models[mesh].touching.reach.same for mesh, _ in layout.graph.sides[gear])
     found: list[Reach] = []
     for shared in couplings(layout, gear):
-        least, most = _between(models, shared)
+        least, most = _between(models, layout, shared)
         most = min(most, least + teeth - 1)
         round_about = teeth * round(0.5 * (least + most) / teeth)
         least, most = least - round_about, most - round_about
@@ -77,22 +79,24 @@ def _hull(ranges: Iterable[tuple[int, int] | None]) -> tuple[int, int] | None:
     return (min(each[0] for each in known), max(each[1] for each in known)) if known else None
 
 
-def _between(models: Sequence[Model], shared: SharedGear) -> tuple[int, int]:
+def _between(models: Sequence[Model], layout: Layout, shared: SharedGear) -> tuple[int, int]:
     """Least and largest number of pitches by which a tooth of the first mesh of a shared gear is ahead of one of the
-    second: on opposite flanks as `Reach.across` counts them."""
-    one, other = (_teeth_on(models[mesh], side) for mesh, side in zip(shared.meshes, shared.sides))
-    if shared.mirrored:
-        least, most = one[0] - shared.tooth + other[0], one[1] - shared.tooth + other[1]
-    else:
-        least, most = one[0] - shared.tooth - other[1], one[1] - shared.tooth - other[0]
-    # One further at either end: pairs a step before, and those of a mesh that is ahead by part of a cycle.
-    return least - 1, most + 1
+    second that touches at the same time: on opposite flanks as `Reach.across` counts them."""
+    first, other = (_indices(models[mesh], layout.phases[mesh]) for mesh in shared.meshes)
+    least = ceil(first[0] - other[1] - PHASE_ROUND_OFF)
+    most = floor(first[1] - other[0] + PHASE_ROUND_OFF)
+    if shared.sides[0]:
+        least, most = -most, -least
+    return least - shared.tooth, most - shared.tooth
 
 
-def _teeth_on(model: Model, side: int) -> tuple[int, int]:
-    """Least and largest place of a tooth of a mesh's pinion (0) or wheel (1) that touches, as `Place.teeth` has it."""
-    first, last = (position // model.touching.steps for position in model.touching.drive)
-    return (first, last) if side == 0 else (-last, -first)
+def _indices(model: Model, phase: float) -> tuple[float, float]:
+    """Between which numbers, less the mesh cycles since the run began, a pair's index is while it touches."""
+    steps = model.touching.steps
+    first, last = model.touching.drive
+    # Pairs touch between steps too, which is less than one at either end of either mesh; with friction one mesh is
+    # looked at a step before the other one.
+    return (first - 1.5) / steps - phase, (last + 1.5) / steps - phase
 
 
 def check_shared(layout: Layout, models: Sequence[Model], gears: Sequence[str], meshes: Sequence[str]) -> None:
