@@ -16,9 +16,9 @@ from fenics_gears.contact.errors import ContactNotConverged
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.operator import Position
 from fenics_gears.contact.step_solver import NEWTON
-from fenics_gears.system.second_process import threads
+from fenics_gears.system.environment import threads
 
-from .compiled_march import NO_SETS, Course, Motion, solve_steps
+from .compiled_march import NO_SETS, Course, Motion, begin, solve_steps
 from .stepping import STEPS_SLID_BEFORE_START, EquationsOfMotion, Stepper
 from .steps import Record, Steps, table_of
 
@@ -257,12 +257,24 @@ class Block:
                     break
             else:
                 if at == first and at > self.done[number]:
-                    step = float(self.steps.numbers[place])
-                    self.begin(number, at, self._batch.common.sets.near(step, self.steps.positions[place]))
+                    self.begin(number, at, self._sets_ahead(number, at))
                 if solve_steps(self.steps, place, place + 1, self._motion(number), self.course) == place:
                     break
             at += 1
         return at
+
+    def _sets_ahead(self, number: int, at: int) -> np.ndarray:
+        """Sets (n,) to begin with at a place of a course before the step before it is solved: those of the last one
+        that is, as its nodes go on."""
+        place = number * self.length + at
+        if not self._begun:
+            return self._batch.common.sets.near(float(self.steps.numbers[place]), self.steps.positions[place])
+        sets = self.sets(number, self.done[number] - 1)
+        for position in self.steps.positions[number * self.length + self.done[number] : place + 1]:
+            before = sets
+            sets = np.empty(position.operator.nodes, dtype=np.int8)
+            begin(sets, before, position.node_before, NO_SETS, NO_SETS)
+        return sets
 
     def _motion(self, number: int) -> Motion:
         """That of a course."""

@@ -18,7 +18,7 @@ from fenics_gears.simulation.root_stress import rows_of
 from fenics_gears.simulation.routes import route_of
 from fenics_gears.simulation.train import shared_body
 from fenics_gears.system.progress import SilentProgress
-from fenics_gears.system.second_process import threads
+from fenics_gears.system.environment import threads
 
 from .gear_store import own_gear_store
 from .run import Run

@@ -14,8 +14,9 @@ from fenics_gears.inputs.tree import GEARS
 from fenics_gears.model.face_cost import both_at_once
 from fenics_gears.model.face_resolution import face_discretisation
 from fenics_gears.model.model import Model
+from fenics_gears.system.environment import threads
 from fenics_gears.system.progress import Progress
-from fenics_gears.system.second_process import SecondProcess, second_process, threads
+from fenics_gears.system.second_process import SecondProcess, second_process
 
 Solids = tuple[FaceCompliance, FaceCompliance]
 

@@ -21,6 +21,8 @@ RANK_COUNTS = ("OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS")
 """Where Open MPI, MPICH and Slurm say how many processes run together."""
 LOCAL_COUNTS = ("OMPI_COMM_WORLD_LOCAL_SIZE", "MPI_LOCALNRANKS", "SLURM_STEP_TASKS_PER_NODE")
 """Where they say how many of these are on one machine."""
+THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS")
+"""Where a user says how many threads a process may have at work."""
 
 
 def prepare(environment=os.environ):
@@ -64,6 +66,15 @@ def started_ranks(environment=os.environ):
 def local_ranks(environment=os.environ):
     """How many of them are on this machine, or on the one that has most."""
     return _largest(environment, LOCAL_COUNTS)
+
+
+def threads() -> int:
+    """Threads that this process may have at work: as the user says, else as it has cores; one in an MPI job."""
+    if any(name in os.environ for name in RANK_COUNTS):
+        return 1
+    given = [int(value) for name in THREADS if (value := os.environ.get(name, "")).isdecimal()]
+    cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    return min([*given, cores])
 
 
 def on_terminal_of_its_own():

@@ -16,19 +16,9 @@ from typing import Any
 
 from fenics_gears.errors import ComputationError, GearsError
 
-from .environment import RANK_COUNTS
+from .environment import THREADS, threads
 
-THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS")
 PROGRAM = "from fenics_gears.system.second_process import serve; serve()"
-
-
-def threads() -> int:
-    """Threads that this process may have at work: as the user says, else as it has cores; one in an MPI job."""
-    if any(name in os.environ for name in RANK_COUNTS):
-        return 1
-    given = [int(value) for name in THREADS if (value := os.environ.get(name, "")).isdecimal()]
-    cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-    return min([*given, cores])
 
 
 class SecondProcess:

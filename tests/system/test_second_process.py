@@ -10,7 +10,7 @@ import pytest
 from threadpoolctl import threadpool_info
 
 from fenics_gears.errors import ComputationError, SceneError
-from fenics_gears.system import second_process
+from fenics_gears.system import environment, second_process
 
 
 def product(rows, _):
@@ -85,12 +85,12 @@ def test_it_ends_with_what_it_was_started_for(tmp_path, monkeypatch):
 def test_threads(monkeypatch):
     """At most as there are cores; a rank of a job has one."""
     cores = len(os.sched_getaffinity(0))
-    for name in (*second_process.THREADS, *second_process.RANK_COUNTS):
+    for name in (*environment.THREADS, *environment.RANK_COUNTS):
         monkeypatch.delenv(name, raising=False)
-    assert second_process.threads() == cores
+    assert environment.threads() == cores
     monkeypatch.setenv("OMP_NUM_THREADS", "1")
-    assert second_process.threads() == 1
+    assert environment.threads() == 1
     monkeypatch.setenv("OMP_NUM_THREADS", "1000")
-    assert second_process.threads() == cores
+    assert environment.threads() == cores
     monkeypatch.setenv("OMPI_COMM_WORLD_SIZE", "1")
-    assert second_process.threads() == 1
+    assert environment.threads() == 1
