@@ -17,8 +17,8 @@ from fenics_gears.simulation.bodies import body_key
 from fenics_gears.simulation.root_stress import rows_of
 from fenics_gears.simulation.routes import route_of
 from fenics_gears.simulation.train import shared_body
-from fenics_gears.system.progress import SilentProgress
 from fenics_gears.system.environment import threads
+from fenics_gears.system.progress import SilentProgress
 
 from .gear_store import own_gear_store
 from .run import Run
