@@ -43,8 +43,7 @@ def advice(data: GearPairData, remedies: Sequence[Remedy], build: Callable[[Gear
         return ": " + ", or ".join(helpful)
     fields = dict.fromkeys(f"gears.{field}" for _, field in remedies)
     return (
-        f". No change of one figure alone mends it (tried: {', '.join(fields)}): check gears.module, the teeth and all"
-        " diameters together"
+        f". No change of {' or '.join(fields)} alone mends it: check gears.module, the teeth and all diameters together"
     )
 
 

@@ -158,7 +158,7 @@ def test_what_does_not_help_is_not_advised(paper_data):
     said = str(refused.value)
     assert "contact ratio 0.66" in said and "raise gears.pinion.profile_shift" in said and "gears.pinion.teeth" in said
     assert "raise gears.pinion.tip_diameter" not in said and "lower gears.centre_distance" not in said
-    with pytest.raises(GeometryError, match="No change of one figure alone mends it"):
+    with pytest.raises(GeometryError, match="No change of .* alone mends it"):
         gear_pair(changed(paper_data, {"centre_distance": 191.5}))
 
 

@@ -12,7 +12,7 @@ def machine() -> dict[str, str]:
     return {
         "processor": processor(),
         "load": load(),
-        "threads": "1 in the march, " + threads() + " elsewhere",
+        "threads": "1 in the march (2 over a face at rest), " + threads() + " elsewhere",
         "versions": versions(),
     }
 

@@ -6,8 +6,8 @@ import argparse
 import sys
 from collections.abc import Callable
 from contextlib import closing
-from functools import partial
 from pathlib import Path
+from typing import Any
 
 from fenics_gears import Scene, SceneError
 from fenics_gears.charts import save_figures
@@ -24,6 +24,7 @@ from fenics_gears.command_line import (
 from fenics_gears.many_runs import communicator
 from fenics_gears.scene_text import load_scene_or_train
 
+from . import train_accuracy
 from .accuracy import report, work_precision
 from .accuracy import table as accuracy_table
 from .effect_costs import measured, table
@@ -54,13 +55,34 @@ def _print_effects(report, files: list[Path]) -> None:
 
 
 def accuracy(options: argparse.Namespace) -> int:
-    quick = partial(report.measure, quick=options.quick)
-    return report_of(
-        options, "accuracy", quick, accuracy_table.write_csv, work_precision.work_precision, _print_accuracy
-    )
+    def measure(scene, progress):
+        if isinstance(scene, Scene):
+            return report.measure(scene, progress, quick=options.quick)
+        return train_accuracy.measure(scene, progress)
+
+    def write_csv(found, file: Path) -> None:
+        of_train = isinstance(found, train_accuracy.TrainReport)
+        (train_accuracy if of_train else accuracy_table).write_csv(found, file)
+
+    def draw(found):
+        of_train = isinstance(found, train_accuracy.TrainReport)
+        return train_accuracy.picture(found) if of_train else work_precision.work_precision(found)
+
+    return report_of(options, "accuracy", measure, write_csv, draw, _print_accuracy)
+
+
+def _print_accuracy_of_train(report, files: list[Path]) -> None:
+    title = f"{report.title}: numbers, and how they change with one setting finer in all meshes"
+    print_table(title, train_accuracy.headings(report), train_accuracy.table_rows(report))
+    if report.failures:
+        print_rows("Not run", [(name, reason, "") for name, reason in report.failures])
+    print_origin(report, files)
 
 
 def _print_accuracy(report, files: list[Path]) -> None:
+    if isinstance(report, train_accuracy.TrainReport):
+        _print_accuracy_of_train(report, files)
+        return
     title = f"{report.scene.title}: each setting's error, the others at {report.fine.words}"
     print_table(title, accuracy_table.headings(report), accuracy_table.table_rows(report))
     print_table(
@@ -76,19 +98,22 @@ def _print_accuracy(report, files: list[Path]) -> None:
     print_origin(report, files)
 
 
-def scenes_to_measure(options, command: str) -> list[tuple[Scene, Path]]:
+def scenes_to_measure(options, command: str) -> list[tuple[Any, Path]]:
     """The scene and the directory of a command that measures times; of a train those of its stages of two gears, each
-    by itself. Raises SceneError under mpirun, and as `checked_model` does."""
+    by itself, or the train where `gears accuracy` measures meshes that are computed together. Raises SceneError under
+    mpirun, and as `checked_model` does."""
     scene = load_scene_or_train(options.scene)
     if isinstance(scene, Scene):
         found = [(checked_model(options.scene).scene, options.output or Path("results") / scene.name)]
+    elif command == "accuracy" and not scene.alone:
+        found = [(scene, options.output or Path("results") / scene.name)]
     else:
         found = _stages(scene, options, command)
     for _, directory in found:
         check_writable(directory, f"{command}.csv", f"{command}.png")
     if communicator() is not None:
         raise SceneError(f"gears {command} {NO_TIMES}")
-    if any(scene.accuracy.target is not None for scene, _ in found):
+    if any(isinstance(each, Scene) and each.accuracy.target is not None for each, _ in found):
         raise SceneError(f"gears {command} takes settings as they stand: leave accuracy.target out.")
     return found
 
@@ -99,8 +124,7 @@ def _stages(train, options, command: str) -> list[tuple[Scene, Path]]:
     if not alone:
         raise SceneError(
             f"gears {command} takes stages of two gears, each by itself; the meshes of this train are computed together"
-            f" ({', '.join(train.together)}), which is not measured yet: run it with finer settings, or make a scene of"
-            " one of its pairs."
+            f" ({', '.join(train.together)}), whose effects are not measured yet: make a scene of one of its pairs."
         )
     coupled = ", ".join(train.together)
     left = f" Left out, since their meshes are computed together: {coupled}." if coupled else ""

@@ -1,12 +1,14 @@
 """`gears accuracy` and `gears effects` of trains, and of scenes with a target."""
 
+import csv
+
 import pytest
 from tests.paper_text import coarse_text
-from tests.trains import COARSE, gearbox_file
+from tests.trains import gearbox_file, row
 
+from fenics_gears import simulate_train, train_from_text
 from fenics_gears.commands.cli import main
-
-LOAD = f'[load]\noutput_torque = "400 N m"\n[accuracy]\n{COARSE}\n'
+from fenics_gears.extensions.measuring import train_accuracy
 
 
 @pytest.mark.nightly
@@ -18,14 +20,34 @@ def test_stages_are_measured_one_by_one(tmp_path, capsys):
         assert (tmp_path / "out" / name / "effects.csv").is_file()
 
 
-def test_rows_with_idlers_are_not_measured(tmp_path, capsys):
+def test_effects_of_rows_with_idlers_are_not_measured(tmp_path, capsys):
     """Before anything is computed, with what can be done."""
     path = tmp_path / "idler.toml"
-    gear = '{ teeth = 24, profile_shift = 0, bore_diameter = "30 mm" }'
-    text = '[stages.a]\nkind = "row"\nmodule = "3 mm"\npressure_angle = "20 deg"\nface_width = "30 mm"\n'
-    path.write_text(f'{text}gears = [{gear}, {gear}, {gear}]\nmaterial = "steel"\n{LOAD}')
-    assert main(["accuracy", str(path)]) == 2
-    assert "computed together (a)" in capsys.readouterr().err
+    path.write_text(row((24, 24, 24), (0, 0), 400.0).text)
+    assert main(["effects", str(path)]) == 2
+    assert "computed together (row)" in capsys.readouterr().err
+
+
+def test_accuracy_of_meshes_that_are_computed_together(tmp_path, capsys):
+    """A row with a setting finer has the numbers of the train that is written so."""
+    train = train_from_text(row((24, 24, 24), (0, 0), 400.0).text.replace('"0.1 mm"', '"0.4 mm"'))
+    path = tmp_path / "idler.toml"
+    path.write_text(train.text)
+    assert main(["accuracy", str(path), "-o", str(tmp_path)]) == 0
+    assert "twice the steps" in capsys.readouterr().out and (tmp_path / "accuracy.png").is_file()
+    with open(tmp_path / "accuracy.csv", encoding="utf-8") as file:
+        rows = {each["settings"]: each for each in csv.DictReader(file)}
+    written = {
+        "as they stand": train.text,
+        "twice the steps": train.text.replace("mesh_cycle = 20", "mesh_cycle = 40"),
+        "flank elements half as large": train.text.replace('"0.4 mm"', '"0.2 mm"'),
+    }
+    for name, text in written.items():
+        expected = simulate_train(train_from_text(text))
+        for number, value in train_accuracy.numbers_of(expected).items():
+            assert float(rows[name][number]) == pytest.approx(value, rel=1e-9)
+    finer = abs(float(rows["body elements half as large"]["mean_overall_transmission_error"]))
+    assert finer == pytest.approx(float(rows["as they stand"]["mean_overall_transmission_error"]), rel=0.02)
 
 
 def test_settings_are_wanted_as_they_stand(tmp_path, capsys):
