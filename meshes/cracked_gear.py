@@ -14,12 +14,12 @@ import sys
 from dataclasses import replace
 from pathlib import Path
 
-from fenics_gears.elasticity.body_mesh_file import write_body_mesh
 from fenics_gears.elasticity.elements import element_named
 from fenics_gears.errors import GearsError, SceneError
 from fenics_gears.inputs.units import QuantityError, quantity
 from fenics_gears.model.model import model_of
 from fenics_gears.scene.read import load_scene
+from meshes.mesh_file import write_body_mesh
 from meshes.root_crack import RootCrack, cracked_gear_mesh
 
 GEARS = ("pinion", "wheel")

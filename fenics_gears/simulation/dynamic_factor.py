@@ -3,10 +3,12 @@ inertia beside it, by the same contact operators."""
 
 from collections.abc import Mapping
 from dataclasses import replace
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
 from fenics_gears.contact.errors import ContactNotConverged
+from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.effects import common_period, effects_on, missing_needs, without
 from fenics_gears.model.model import Model, model_of
@@ -76,17 +78,34 @@ def at_rest(model: Model, scene: Scene, steps: int) -> Model:
     return replace(still, drivetrain=replace(model.drivetrain, mass=None, damping=None, mesh=None))
 
 
+# Peaks of quasi-static marches, which runs on the same cycle, such as those of a study, have in common.
+_PEAKS_OF_CYCLES: WeakKeyDictionary[Cycle, dict[tuple, Peaks]] = WeakKeyDictionary()
+
+
 def _peaks_still(still: Model, recorder: Recorder) -> Peaks | str:
     """The peaks of the quasi-static model, or why there are none."""
-    reference = Recorder(still, recorder.cycle, stress=recorder.stress)
+    cycle = recorder.cycle
+    drivetrain = still.drivetrain
+    equations = still.equations_of_motion
+    # Without mass and loads that vary nothing depends on time, nor on the mesh frequency.
+    numbers = [each.tobytes() for each in (drivetrain.radii, drivetrain.stiffness, drivetrain.load)]
+    key = (drivetrain.coordinates, *numbers, equations.friction, still.steps)
+    known = _PEAKS_OF_CYCLES.setdefault(cycle, {})
+    shared = not still.loads and recorder.stress is None
+    if shared and key in known:
+        return known[key]
+    reference = Recorder(still, cycle, stress=recorder.stress)
     try:
-        march = Marcher(recorder.cycle, still.equations_of_motion).run(still.steps, 1, observe=reference.take)
+        march = Marcher(cycle, equations).run(still.steps, 1, observe=reference.take)
     except ContactNotConverged as failure:
         return f"the quasi-static run has no solution: {str(failure).splitlines()[0]}"
     if march.interrupted:
         return "the quasi-static run was interrupted"
     reference.finish()
-    return _peaks(reference.arrays, _largest_force(reference))
+    peaks = _peaks(reference.arrays, _largest_force(reference))
+    if shared:
+        known[key] = peaks
+    return peaks
 
 
 def _largest_force(recorder: Recorder) -> float:

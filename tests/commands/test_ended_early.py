@@ -97,7 +97,7 @@ def test_a_users_file_is_no_module_of_processes_that_mpirun_starts(tmp_path, mon
     monkeypatch.setenv("PATH", f"{tmp_path}:{os.environ['PATH']}")
     monkeypatch.chdir(tmp_path)
     (tmp_path / "argparse.py").write_text("raise SystemExit(9)\n")
-    assert main(["map", "scene.toml", "--loads", "1 N m", "--processes", "1"]) == 2
+    assert main(["study", "study.toml", "--processes", "1"]) == 2
 
 
 def test_the_summary_of_an_interrupted_run_says_so_first(simulation, capsys):

@@ -128,14 +128,6 @@ def test_quantiles_of_a_set(folder, monkeypatch, capsys):
     )
     assert (sharing[1] < sharing[0]).all()
     assert (folder / "results" / "study" / "load_sharing_factor.png").is_file()
-    # Of cases that keep numbers alone the page has these.
-    few = f'keep = "numbers"\n{Path("study.toml").read_text()}'
-    Path("few.toml").write_text(few)
-    assert main(["study", "few.toml", "-q"]) == 0
-    assert main(["report", str(folder / "results" / "few"), "-q"]) == 0
-    page = (folder / "results" / "few" / "report.html").read_text(encoding="utf-8")
-    assert "K_gamma of the sun" in page
-    assert "6 cases over input torque (2 values), 3 samples of 1 random field" in page
     assert "quantiles 5 / 50 / 95 %" in capsys.readouterr().out
 
 

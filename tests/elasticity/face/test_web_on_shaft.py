@@ -92,7 +92,7 @@ def by_program(name, wheel=Wheel(), press_fit=False):
     if press_fit:
         rings = [Ring(*each, 1.0, POISSON) for each in (*wheel.rings(), (INNER, BORE, *wheel.rings()[0][2:]))]
         shaft = shaft_of(name, PLAIN, wheel.face, Hub(tuple(rings[:3]), rings[3]))
-        seat = alone(shaft).seat(shaft.seats[0]).under(heights).compliance[:, 0]
+        seat = alone(shaft).seat(shaft.seats[0]).whole(heights)[:, 0]
         by_force, by_moment = (
             by_force + FORCE * seat[:, :, 0] @ over_face,
             by_moment - MOMENT * seat[:, :, 4] @ over_face,
@@ -211,7 +211,7 @@ def test_the_line_load_of_a_press_fit_is_that_of_one_solid(name):
     carry = np.array([carried(each)[0, :5] for each in z])
     rigid = own + carry @ np.linalg.solve(alone(shaft).stiffness, carry.T)
     shaft = shaft_of(name, PLAIN, FACE, Hub(tuple(rings), Ring(INNER, BORE, -0.5 * FACE, 0.5 * FACE, 1.0, POISSON)))
-    fitted = rigid + alone(shaft).seat(shaft.seats[0]).under(z).compliance[:, 0, :, 0]
+    fitted = rigid + alone(shaft).seat(shaft.seats[0]).whole(z)[:, 0, :, 0]
     wanted, stiff, found = (load_factor(each) for each in (moved, over @ rigid @ over.T, over @ fitted @ over.T))
     print(f"K_Hbeta {name}: solid {wanted:.4f}, rigid seat {stiff:.4f}, press fit {found:.4f}")
     assert found == pytest.approx(wanted, rel=0.02)

@@ -5,7 +5,7 @@ import re
 import pytest
 from tests.extensions.live.conftest import SET
 from tests.extensions.report.pages import seen
-from tests.planets import in_time
+from tests.planets import in_time, planetary_text
 from tests.trains import bent_two_stages, gearbox_file, split_text
 
 from fenics_gears import load
@@ -91,3 +91,20 @@ def test_a_study_has_one_page(tmp_path, monkeypatch):
     assert main(["study", "study.toml", "--quiet", "-o", "out"]) == 0
     assert main(["report", "out", "-q"]) == 0
     assert "Gear train: report on a study" in (tmp_path / "out" / "report.html").read_text()
+
+
+def test_a_study_that_keeps_numbers_alone_has_its_page(tmp_path, monkeypatch):
+    """Of its cases the numbers are there, no runs; random fields are one dimension."""
+    monkeypatch.chdir(tmp_path)
+    coarse = 'steps_per_mesh_cycle = 4\nflank_element_size = "0.5 mm"\ncontact_length = "3 mm"'
+    more = 'carrier = { pin_stiffness = "3e5 N/mm" }'
+    text = planetary_text(teeth=(20, 16, 52), planets="planets = 4", more=more, accuracy=coarse)
+    (tmp_path / "set.toml").write_text(text)
+    pins = '{ distribution = "normal", mean = "0 um", deviation = "10 um", count = 3, seed = 1, entries = 4 }'
+    swept = f'stages.set.carrier.pin_errors = {pins}\nload.input_torque = ["500 N m", "600 N m"]\n'
+    (tmp_path / "few.toml").write_text(f'keep = "numbers"\nscene = "set.toml"\n[sweep]\n{swept}')
+    assert main(["study", "few.toml", "-q"]) == 0
+    assert main(["report", str(tmp_path / "results" / "few"), "-q"]) == 0
+    page = (tmp_path / "results" / "few" / "report.html").read_text(encoding="utf-8")
+    assert "K_gamma of the sun" in page
+    assert "6 cases over input torque (2 values), 3 samples of 1 random field" in page
