@@ -297,12 +297,14 @@ class Block:
     def middle(self, number: int, end: int) -> int:
         """From which place on a second thread may solve the steps of a course that are left before `end`: this where
         each follows from the one before it."""
-        left, batch, at_rest = end - self.done[number], self._batch, self.course.at_rest
-        # In a plane a step takes less time than to begin a thread.
-        if left < 2 or batch.cycle.face.slices == 1 or threads() == 1 or self.steps.table[:, RIGID_SLIP].any():
+        left = end - self.done[number]
+        batch = self._batch
+        if left < 2 or threads() == 1 or self.steps.table[:, RIGID_SLIP].any():
             return end
-        stand = at_rest and batch.cycle.traits.repeats or batch.plain and not batch.common.dynamic.inert
-        return end - left // 2 if stand else end
+        # In a plane a step takes less time than to begin a thread.
+        compiled = self.course.at_rest and batch.cycle.traits.repeats and not batch.plain
+        by_itself = batch.plain and not batch.common.dynamic.inert and batch.cycle.face.slices > 1
+        return end - left // 2 if compiled or by_itself else end
 
     def sets(self, number: int, at: int) -> np.ndarray:
         """The sets (n,) of a step of a course that is there."""
