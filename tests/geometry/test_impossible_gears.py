@@ -25,7 +25,7 @@ IMPOSSIBLE = {
     "undercut to the middle of the tooth": (few_teeth(7, -0.8), ["pinion: undercut", "13.05 mm",
         "0.2306 mm thick at its neck", "0.1 modules", "raise gears.pinion.profile_shift to 0.3"]),
     "no involute left by undercut": (few_teeth(8, -0.3) | {"pinion.tip_diameter": 34.6}, ["pinion: no involute",
-        "34.6 mm", "the fillet cuts off the involute up to 34.", "tried: gears.pinion.tip_diameter"]),
+        "34.6 mm", "the fillet cuts off the involute up to 34.", "No change of gears.pinion.tip_diameter"]),
     "contact ratio by undercut": (few_teeth(8, 0.0) | {"centre_distance": 72.9}, ["pair: contact ratio 0.9",
         "shortened by the undercut pinion", "at least 1", "profile_shift"]),
     "pointed tip": ({"wheel.tip_diameter": 127.0}, ["wheel: pointed tip", "127 mm", "gears.wheel.tip_diameter"]),
