@@ -81,27 +81,28 @@ def measure(train, progress: Progress) -> TrainReport:
     return TrainReport(train.title, tuple(rows), tuple(failures), machine())
 
 
-def _finer(model) -> list[str]:
-    """The rows beside the one as they stand."""
-    of_face = ["twice the slices"] if model.scene.three_dimensional else []
-    return ["twice the steps", "flank elements half as large", "body elements half as large", *of_face]
+def _finer(model) -> dict[str, dict[str, float]]:
+    """By row, which settings of a mesh are finer than as they stand."""
+    resolution = model.resolution
+    body = resolution.body_element_size or model.scene.gears.module
+    slices, _ = model.slices_and_layers
+    of_face = {"twice the slices": {"slices": 2 * slices}} if slices else {}
+    return {
+        "twice the steps": {"steps_per_mesh_cycle": 2 * resolution.steps_per_mesh_cycle},
+        "flank elements half as large": {"flank_element_size": 0.5 * resolution.flank_element_size},
+        "body elements half as large": {"body_element_size": 0.5 * body},
+        **of_face,
+    }
 
 
 def _accuracy(own: Accuracy, model, name: str) -> Accuracy:
-    """The accuracy of a mesh in a row. All else stays as it was decided, also what follows from the size of flank
-    elements."""
+    """The accuracy of a mesh in a row. Steps and flank elements stay as they were decided where they are no finer."""
     resolution = model.resolution
-    steps, size, slices = resolution.steps_per_mesh_cycle, resolution.flank_element_size, own.slices
-    body = resolution.body_element_size or own.body_element_size
-    if model.scene.three_dimensional:
-        slices = model.slices_and_layers[0]
-    changes = {
-        "twice the steps": {"steps_per_mesh_cycle": 2 * steps},
-        "flank elements half as large": {"flank_element_size": 0.5 * size},
-        "body elements half as large": {"body_element_size": 0.5 * (body or model.scene.gears.module)},
-        "twice the slices": {"slices": 2 * (slices or 1)},
+    decided = {
+        "steps_per_mesh_cycle": resolution.steps_per_mesh_cycle,
+        "flank_element_size": resolution.flank_element_size,
     }
-    return replace(own, **{"steps_per_mesh_cycle": steps, "flank_element_size": size, **changes.get(name, {})})
+    return replace(own, **decided | _finer(model).get(name, {}))
 
 
 def _with(train, change: Callable[..., Accuracy]):
