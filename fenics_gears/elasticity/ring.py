@@ -90,12 +90,22 @@ def turn_last(stiffness: np.ndarray, last: int, turn: np.ndarray) -> None:
 
 def flank_free(stiffness: np.ndarray, flank: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """The same of a stiffness whose `flank` dofs come first and those of the cuts behind them."""
-    # Transposed, they are in LAPACK's order.
-    factor = definite_factor(stiffness[:flank, :flank].T, "a flank")
-    onto_cut = dtrsm(1.0, factor, stiffness[flank:, :flank].T, trans_a=1)
-    cut = stiffness[flank:, flank:] - symmetric(dsyrk(1.0, onto_cut, trans=1))
+    factor, onto_cut, cut = _eliminated(stiffness, flank, "a flank")
     response = dtrsm(1.0, factor, onto_cut, overwrite_b=1)
     return inverse_of_factor(factor, "a flank"), response, cut
+
+
+def without_first(stiffness: np.ndarray, count: int, what: str) -> np.ndarray:
+    """A stiffness with its first dofs free. Raises ComputationError where that of `what` is not definite."""
+    return _eliminated(stiffness, count, what)[2]
+
+
+def _eliminated(stiffness: np.ndarray, first: int, what: str) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Of the first dofs the factor U^T U, U^-T times their stiffness onto the others, and what is left to these."""
+    # Transposed, they are in LAPACK's order.
+    factor = definite_factor(stiffness[:first, :first].T, what)
+    onto_others = dtrsm(1.0, factor, stiffness[first:, :first].T, trans_a=1)
+    return factor, onto_others, stiffness[first:, first:] - symmetric(dsyrk(1.0, onto_others, trans=1))
 
 
 def sector_cuts(sector: CondensedBody, teeth: int) -> tuple[np.ndarray, np.ndarray]:

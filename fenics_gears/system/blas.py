@@ -18,10 +18,12 @@ from pathlib import Path
 
 VARIABLE = "OPENBLAS_CORETYPE"
 PROCESSORS = Path("/proc/cpuinfo")
-# Kernels that use these instructions are quick. The oldest are the tried ones.
+# Kernels that use these instructions are quick.
 INSTRUCTIONS = {"avx2", "fma"}
 QUICK = {"Haswell", "Excavator", "Zen", "SkylakeX", "Cooperlake", "SapphireRapids"}
-TRIED = "Haswell"
+# Those to take where OpenBLAS does not know the processor, by the instructions that they need, the quickest first: a
+# product takes 0.6 of the time with the first.
+TRIED = {"SkylakeX": {"avx512f", "avx512cd", "avx512bw", "avx512dq", "avx512vl"}, "Haswell": INSTRUCTIONS}
 # The system's BLAS, which PETSc and MUMPS use also where NumPy and SciPy have libraries of their own.
 SYSTEM_LIBRARY = "libblas.so.3"
 SYSTEM_FOLDERS = ("/usr/lib/x86_64-linux-gnu", "/usr/lib64", "/usr/lib")
@@ -30,7 +32,12 @@ SYSTEM_FOLDERS = ("/usr/lib/x86_64-linux-gnu", "/usr/lib64", "/usr/lib")
 def choose(environment) -> None:
     """Set OPENBLAS_CORETYPE where OpenBLAS would take slow kernels, unless the user has set it or NumPy is loaded."""
     if VARIABLE not in environment and "numpy" not in sys.modules and takes_slow_kernels():
-        environment[VARIABLE] = TRIED
+        environment[VARIABLE] = kernels_for(_flags())
+
+
+def kernels_for(flags: set[str]) -> str:
+    """Kernels for a processor of these flags, INSTRUCTIONS among them."""
+    return next(kernels for kernels, needed in TRIED.items() if needed <= flags)
 
 
 @functools.cache
@@ -38,7 +45,7 @@ def takes_slow_kernels() -> bool:
     """Whether OpenBLAS by itself takes kernels that do not suit this processor, from a file in the user's folder for
     caches or found out now."""
     processor = _processor()
-    if not INSTRUCTIONS <= {*processor.get("flags", "").split()}:
+    if not INSTRUCTIONS <= _flags():
         return False
     # As `system.environment` has made sure that it can be written.
     folder = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache", "fenics_gears")
@@ -89,6 +96,10 @@ def _processor() -> dict[str, str]:
         pairs = (line.partition(":") for line in takewhile(str.strip, lines))
         return {name.strip(): value.strip() for name, _, value in pairs}
     return {}
+
+
+def _flags() -> set[str]:
+    return {*_processor().get("flags", "").split()}
 
 
 def _key(processor: dict[str, str]) -> list:

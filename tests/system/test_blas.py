@@ -22,7 +22,7 @@ print(*{each["kernels"] for each in blas.libraries()})
 @pytest.fixture
 def machine(monkeypatch, tmp_path):
     """A processor with these flags, whose OpenBLAS takes these kernels; returns what was looked for."""
-    if not blas.libraries() or not blas.INSTRUCTIONS <= {*blas._processor().get("flags", "").split()}:
+    if not blas.libraries() or not blas.INSTRUCTIONS <= blas._flags():
         pytest.skip("needs OpenBLAS, and a processor with AVX2 and FMA")
     looked = []
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
@@ -53,7 +53,16 @@ def test_openblas_is_left_to_itself_where_its_kernels_suit(machine, flags, by_it
     assert not blas.takes_slow_kernels()
 
 
-@pytest.mark.parametrize(("given", "kernels"), [(None, "Haswell"), ("Prescott", "Prescott")])
+def test_kernels_use_no_instruction_that_the_processor_lacks():
+    """AVX-512 in all the parts that OpenBLAS's kernels for Skylake-X use."""
+    parts = "avx512f avx512cd avx512bw avx512dq avx512vl".split()
+    assert blas.kernels_for({*MODERN.split(), *parts}) == "SkylakeX"
+    assert {blas.kernels_for({*MODERN.split(), *parts} - {part}) for part in parts} == {"Haswell"}
+
+
+@pytest.mark.parametrize(
+    ("given", "kernels"), [(None, blas.kernels_for(blas.INSTRUCTIONS | blas._flags())), ("Prescott", "Prescott")]
+)
 def test_kernels_are_chosen_before_the_library_is_loaded(machine, tmp_path, given, kernels):
     """The library itself; a user's own choice is left alone."""
     environment = {**os.environ, "XDG_CACHE_HOME": str(tmp_path)}

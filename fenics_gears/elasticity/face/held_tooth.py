@@ -4,17 +4,16 @@ from __future__ import annotations
 
 import numpy as np
 from scipy import sparse
-from scipy.linalg import cho_factor, cho_solve
 
 from fenics_gears.geometry.gear import Gear
 
 from ..condensation import by_radius
 from ..element_nodes import dofs_of, numbers_at
 from ..mesh_data import BodyMesh
-from ..mumps import schur_complement
+from .layer_run import LayerRun
 from .layers import Sweep, interpolation_along
 from .near_field import NearField, neighbours, thin_boundaries, thin_layers
-from .swept_stiffness import ELEMENT, Blocks, SectionForms, swept_stiffness
+from .swept_stiffness import ELEMENT, SectionForms, layer_stiffness
 
 # Modules: how far below the root circle a tooth is held.
 DEPTH = 0.3
@@ -51,19 +50,21 @@ class _HeldTooth:
         for held in ("lower cut", "upper cut", "hub"):
             free[numbers_at(points, mesh.edge_nodes(held, ELEMENT.order))] = False
         flank = numbers_at(points, by_radius(mesh.edge_nodes("flank", ELEMENT.order)))
-        self._flank = (np.cumsum(free) - 1)[flank]
         slope = -twist * gear.base_radius
         transverse = np.column_stack([np.cos(rolls), -np.sin(rolls), np.full(len(rolls), slope)])
         self.normals = transverse / np.sqrt(1.0 + slope**2)
-        along = _along_normals(int(free.sum()), self._flank, self.normals)
-        self._motions = sparse.eye(3 * len(points), format="csr")[:, dofs_of(np.flatnonzero(free), 3)] @ along
-        self._layers: dict[tuple[float, bool], Blocks] = {}
+        own = (np.cumsum(free) - 1)[flank]
+        along = _along_normals(int(free.sum()), own, self.normals)
+        # Those along the normals come last, as a LayerRun has them.
+        order = np.concatenate([np.setdiff1d(np.arange(along.shape[1]), 3 * own), 3 * own])
+        self._motions = sparse.eye(3 * len(points), format="csr")[:, dofs_of(np.flatnonzero(free), 3)] @ along[:, order]
+        self._runs: dict[tuple[float, ...], LayerRun] = {}
         self._known: dict[tuple[float, ...], np.ndarray] = {}
 
     @property
     def nodes(self) -> int:
         """Of a section's flank."""
-        return len(self._flank)
+        return len(self.normals)
 
     def missing(self, thick: tuple[float, ...], layer: int) -> np.ndarray:
         """D (h n, H n) of layers of some thicknesses: displacements of one `layer`, at its thin layers' nodes, under
@@ -79,12 +80,24 @@ class _HeldTooth:
 
     def _compliance(self, boundaries: np.ndarray) -> np.ndarray:
         """T (H n, H n), along the normals, of layers between boundaries."""
-        sweep = Sweep(boundaries, self._twist)
-        stiffness = swept_stiffness(self._section, sweep, self._motions, self._layers)
-        nodes = self._motions.shape[1] // 3
-        on_flank = 3 * (nodes * np.arange(len(sweep.heights))[:, None] + self._flank).ravel()
-        compliance = cho_solve(cho_factor(schur_complement(stiffness, on_flank)), np.eye(len(on_flank)))
-        return 0.5 * (compliance + compliance.T)
+        return self._run(tuple(Sweep(boundaries).thicknesses.tolist())).compliance()
+
+    def _run(self, thick: tuple[float, ...]) -> LayerRun:
+        """Layers of some thicknesses. Alike parts of them are condensed once."""
+        if thick not in self._runs:
+            if len(thick) == 1:
+                self._runs[thick] = self._layer(thick[0])
+            else:
+                # Of two alike halves, or of one that is.
+                lower = 1 << ((len(thick) - 1).bit_length() - 1)
+                self._runs[thick] = self._run(thick[:lower]).joined(self._run(thick[lower:]))
+        return self._runs[thick]
+
+    def _layer(self, thickness: float) -> LayerRun:
+        motions = self._motions
+        blocks = layer_stiffness(self._section, thickness, self._twist)
+        own = {pair: motions.T @ block @ motions for pair, block in blocks.items()}
+        return LayerRun.of_layer(own, self.nodes)
 
 
 def _along_normals(nodes: int, flank: np.ndarray, normals: np.ndarray) -> sparse.csr_matrix:

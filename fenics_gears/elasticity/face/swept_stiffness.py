@@ -106,37 +106,20 @@ def _forms(space, poisson, a, b, c, d):
 Blocks = dict[tuple[int, int], sparse.csr_matrix]
 
 
-def swept_stiffness(
-    section: SectionForms,
-    sweep: Sweep,
-    motions: sparse.csr_matrix | None = None,
-    known: dict[tuple[float, bool], Blocks] | None = None,
-) -> sparse.csr_matrix:
+def swept_stiffness(section: SectionForms, sweep: Sweep) -> sparse.csr_matrix:
     """Stiffness (3 n h, 3 n h), N/mm, of the swept body: dofs by height, then the section's node, then x, y, z in the
-    section's frame.
-
-    With `motions` (3n, r) of the section at each height (r h, r h), of these alone. `known`: blocks of layers by kind,
-    of the same section, twist and motions, to which those of this body are added.
-    """
-    known = {} if known is None else known
-    for kind in set(sweep.kinds) - set(known):
-        blocks = layer_of_kind(section, sweep.twist, kind)
-        # Of one layer, not of the body: products of sparse matrices take as long as the factor.
-        known[kind] = blocks if motions is None else _of_motions(blocks, motions)
+    section's frame."""
+    blocks = {kind: layer_of_kind(section, sweep.twist, kind) for kind in set(sweep.kinds)}
     heights = len(sweep.heights)
-    size = 3 * len(section.nodes.points) if motions is None else motions.shape[1]
+    size = 3 * len(section.nodes.points)
     # A block in every row and column, so that the matrix has all.
     rows = [[sparse.csr_matrix((size, size)) if 0 in (i, j) else None for j in range(heights)] for i in range(heights)]
     for layer, kind in enumerate(sweep.kinds):
-        for (low, high), block in known[kind].items():
+        for (low, high), block in blocks[kind].items():
             row = rows[2 * layer + low]
             column = 2 * layer + high
             row[column] = block if row[column] is None else row[column] + block
     return sparse.bmat(rows, format="csr")
-
-
-def _of_motions(blocks: Blocks, motions: sparse.csr_matrix) -> Blocks:
-    return {pair: (motions.T @ block @ motions).tocsr() for pair, block in blocks.items()}
 
 
 def layer_of_kind(section: SectionForms, twist: float, kind: tuple[float, bool]) -> Blocks:
