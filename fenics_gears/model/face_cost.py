@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 from fenics_gears.contact.operator import SHARE_FORMED
-from fenics_gears.elasticity.face.cost import BYTES_OF_AN_UNKNOWN, expected_condensing, expected_size, near_unknowns
+from fenics_gears.elasticity.face.cost import BYTES_OF_AN_UNKNOWN, expected_condensing, expected_size, held_dofs
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.system.memory import allowed_memory
 
@@ -22,10 +22,10 @@ from .cost_parts import (
 from .face_resolution import face_discretisation
 from .model import Model
 
-# Seconds of an unknown of a body, of a held tooth's (measured of two gears, 1.2e-4 and 1.6e-4 on a busy machine), and
-# of a multiplication of dense matrices.
+# Seconds of an unknown of a body, of one in a section of a held tooth (measured of two gears), and of a multiplication
+# of dense matrices.
 UNKNOWN = 4e-5
-NEAR_UNKNOWN = 1.2e-4
+HELD_DOF = 1.4e-3
 MULTIPLICATION = 5e-11
 # Of the root stress, an unknown, factorised and solved for one load; of the cube of a cut's dofs.
 FACTORISED_UNKNOWN = 6e-5
@@ -87,9 +87,7 @@ def face_cost(model: Model, sections: ExpectedCost, fine: tuple[float, float]) -
         bodies.append((f"the {name}'s body", size.unknowns))
         ways.append((f"the {name}'s body", f"{own.memory / 1e9:.3g} GB"))
         condensing += UNKNOWN * size.unknowns + MULTIPLICATION * own.operations
-        gear = model.pair.gears[number]
-        division = face_discretisation(model, number)
-        condensing += NEAR_UNKNOWN * sum(near_unknowns(gear, division, model.scene.coast_flanks is not None))
+        condensing += HELD_DOF * held_dofs(model.pair.gears[number], face_discretisation(model, number))
         # The flanks' compliance by heights, and by slices for teeth ahead and behind: of two slices some teeth of all
         # touch at a time.
         on_slices = size.flanks * model.face.slices / len(face_discretisation(model, number).sweep.heights)

@@ -15,7 +15,6 @@ from ..element_sizes import ElementSizes, SizeField
 from ..sector_boundary import SectorBoundary, sector_boundary
 from .coarse_cuts import boundaries_where_deep, is_deep, narrow_sweep
 from .discretisation import FaceDiscretisation
-from .near_field import neighbours, thin_layers
 
 # Nodes of a section by points of its outline, and by its area in squares of its elements' size. They are within 18 %
 # for 110 sections from 0.1 to 1.4 modules, of 18 to 110 teeth, with thin rims too.
@@ -28,8 +27,6 @@ SAMPLES, NECK = 60, 0.3
 BYTES_OF_AN_UNKNOWN = 12e3
 BYTES_OF_AN_ENTRY = 26.0
 CONDENSING = 90.0
-# Bytes for each unknown of a held tooth (`near_unknowns`): measured, 21e3 to 28e3 of 20,000.
-BYTES_OF_A_NEAR_UNKNOWN = 25e3
 # Motions of a cut, in the mean of its dofs and a flank's; time of the ring's multiplications in that of MUMPS's.
 MOTIONS = 0.2
 IN_RING = 2.4
@@ -125,16 +122,9 @@ def expected_size(gear: Gear, face: FaceDiscretisation, both_flanks: bool = Fals
     return BodySize(round(unknowns), (2 if both_flanks else 1) * 3 * heights * section.flank, cut)
 
 
-def near_unknowns(gear: Gear, face: FaceDiscretisation, both_flanks: bool = False) -> list[float]:
-    """Of the held teeth whose thin layers tell what a body's layers leave out: one for each run of neighbours, which
-    the coast flank has in reverse. There is one after the other."""
-    scaled = face.in_modules_of(gear)
-    thick = [round(each, 9) for each in scaled.sweep.thicknesses.tolist()]
-    runs = {tuple(thick[near]) for near in neighbours(thick)}
-    if both_flanks:
-        runs |= {run[::-1] for run in runs}
-    nodes = _section(gear.of_module_one, scaled.sizes).tooth
-    return [3.0 * nodes * (2 * sum(thin_layers(each) for each in run) + 1) for run in runs]
+def held_dofs(gear: Gear, face: FaceDiscretisation) -> float:
+    """Of a section of the held tooth whose thin layers tell what a body's layers leave out."""
+    return 3.0 * _section(gear.of_module_one, face.in_modules_of(gear).sizes).tooth
 
 
 def _heights_of_web(face: FaceDiscretisation) -> int:
@@ -149,10 +139,8 @@ def expected_condensing(gear: Gear, face: FaceDiscretisation, farthest: int, bot
     narrow = narrow_sweep(sweep, 2.0 * np.pi * gear.root_radius / gear.teeth)
     factorised = size.unknowns * len(narrow.heights) / len(sweep.heights)
     condensing = BYTES_OF_AN_UNKNOWN * factorised + BYTES_OF_AN_ENTRY * size.condensed**2
-    # One after the other: where a scene has few layers, the held teeth take more.
-    near = BYTES_OF_A_NEAR_UNKNOWN * max(near_unknowns(gear, face))
     multiplications = CONDENSING * factorised**2 + IN_RING * _ring(size, gear.tooth_count, farthest)
-    return BodyCost(max(condensing, near), multiplications)
+    return BodyCost(condensing, multiplications)
 
 
 def _ring(size: BodySize, teeth: int, farthest: int) -> float:

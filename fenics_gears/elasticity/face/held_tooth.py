@@ -1,22 +1,35 @@
-"""A tooth that is held at its root, swept through some layers: what these leave out near a load (`near_field`)."""
+"""A tooth that is held at its root, swept through some layers: what these leave out near a load (`near_field`).
+
+Through 25 thin layers it has 35,000 dofs. But its sections move in some 160 ways under forces on the flank (Galerkin's
+method, as of `cut_motions`): those in which few layers move them, thin ones and those of the body. Then alike layers
+are joined by halves. Of the largest entry of D that leaves 1e-5, and takes a third of the time of all dofs.
+"""
 
 from __future__ import annotations
 
+from contextlib import closing
+
 import numpy as np
 from scipy import sparse
+from scipy.linalg import eigh
 
 from fenics_gears.geometry.gear import Gear
 
 from ..condensation import by_radius
 from ..element_nodes import dofs_of, numbers_at
 from ..mesh_data import BodyMesh
-from .layer_run import LayerRun
+from ..mumps import Factor
+from .layer_run import WHAT, LayerRun
 from .layers import Sweep, interpolation_along
 from .near_field import NearField, neighbours, thin_boundaries, thin_layers
-from .swept_stiffness import ELEMENT, SectionForms, layer_stiffness
+from .swept_stiffness import ELEMENT, SectionForms, layer_stiffness, of_motions, swept_stiffness
 
 # Modules: how far below the root circle a tooth is held.
 DEPTH = 0.3
+# Layers whose sections tell the motions, thin ones and those of the body; motions below this part of the largest are
+# left out.
+THIN_LAYERS, THICK_LAYERS = 4, 5
+LEAST_MOTION = 1e-4
 
 
 def near_field(
@@ -57,7 +70,8 @@ class _HeldTooth:
         along = _along_normals(int(free.sum()), own, self.normals)
         # Those along the normals come last, as a LayerRun has them.
         order = np.concatenate([np.setdiff1d(np.arange(along.shape[1]), 3 * own), 3 * own])
-        self._motions = sparse.eye(3 * len(points), format="csr")[:, dofs_of(np.flatnonzero(free), 3)] @ along[:, order]
+        self._all = sparse.eye(3 * len(points), format="csr")[:, dofs_of(np.flatnonzero(free), 3)] @ along[:, order]
+        self._motions: np.ndarray | None = None
         self._runs: dict[tuple[float, ...], LayerRun] = {}
         self._known: dict[tuple[float, ...], np.ndarray] = {}
 
@@ -72,11 +86,33 @@ class _HeldTooth:
         if thick not in self._known:
             boundaries = np.concatenate([[0.0], np.cumsum(thick)])
             thin = thin_boundaries(boundaries)
+            if self._motions is None:
+                self._motions = self._section_motions(thin[: THIN_LAYERS + 1], boundaries[: THICK_LAYERS + 1])
             along = sparse.kron(interpolation_along(boundaries, Sweep(thin).heights), sparse.eye(self.nodes), "csr")
             self._known[thick] = self._compliance(thin) - along @ (along @ self._compliance(boundaries)).T
         first = 2 * sum(thin_layers(each) for each in thick[:layer])
         last = first + 2 * thin_layers(thick[layer]) + 1
         return self._known[thick][first * self.nodes : last * self.nodes]
+
+    def _section_motions(self, *bodies: np.ndarray) -> np.ndarray:
+        """Motions (3 n, r) of the section in which forces along the normals move those of bodies of some layers, each
+        given by its boundaries; last those along the normals themselves."""
+        others = self._all.shape[1] - self.nodes
+        moved = np.hstack([self._moved(boundaries)[:others] for boundaries in bodies])
+        sizes, directions = eigh(moved @ moved.T)
+        kept = directions[:, sizes > LEAST_MOTION**2 * sizes[-1]]
+        return np.hstack([self._all[:, :others] @ kept, self._all[:, others:].toarray()])
+
+    def _moved(self, boundaries: np.ndarray) -> np.ndarray:
+        """How sections move (3 n, k) under forces of one on each flank node at each height of some layers."""
+        stiffness = swept_stiffness(self._section, Sweep(boundaries, self._twist), self._all)
+        size = self._all.shape[1]
+        number = np.arange(stiffness.shape[0])
+        on_flank = number[number % size >= size - self.nodes]
+        forces = np.zeros((len(number), len(on_flank)))
+        forces[on_flank, np.arange(len(on_flank))] = 1.0
+        with closing(Factor(stiffness, WHAT)) as factor:
+            return np.hstack(factor.solve(forces).reshape(-1, size, len(on_flank)))
 
     def _compliance(self, boundaries: np.ndarray) -> np.ndarray:
         """T (H n, H n), along the normals, of layers between boundaries."""
@@ -86,18 +122,13 @@ class _HeldTooth:
         """Layers of some thicknesses. Alike parts of them are condensed once."""
         if thick not in self._runs:
             if len(thick) == 1:
-                self._runs[thick] = self._layer(thick[0])
+                blocks = layer_stiffness(self._section, thick[0], self._twist)
+                self._runs[thick] = LayerRun.of_layer(of_motions(blocks, self._motions), self.nodes)
             else:
                 # Of two alike halves, or of one that is.
                 lower = 1 << ((len(thick) - 1).bit_length() - 1)
                 self._runs[thick] = self._run(thick[:lower]).joined(self._run(thick[lower:]))
         return self._runs[thick]
-
-    def _layer(self, thickness: float) -> LayerRun:
-        motions = self._motions
-        blocks = layer_stiffness(self._section, thickness, self._twist)
-        own = {pair: motions.T @ block @ motions for pair, block in blocks.items()}
-        return LayerRun.of_layer(own, self.nodes)
 
 
 def _along_normals(nodes: int, flank: np.ndarray, normals: np.ndarray) -> sparse.csr_matrix:

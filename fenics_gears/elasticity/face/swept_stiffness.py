@@ -106,12 +106,15 @@ def _forms(space, poisson, a, b, c, d):
 Blocks = dict[tuple[int, int], sparse.csr_matrix]
 
 
-def swept_stiffness(section: SectionForms, sweep: Sweep) -> sparse.csr_matrix:
+def swept_stiffness(section: SectionForms, sweep: Sweep, motions: sparse.csr_matrix | None = None) -> sparse.csr_matrix:
     """Stiffness (3 n h, 3 n h), N/mm, of the swept body: dofs by height, then the section's node, then x, y, z in the
-    section's frame."""
+    section's frame. With `motions` (3n, r) of the section at each height (r h, r h), of these alone."""
     blocks = {kind: layer_of_kind(section, sweep.twist, kind) for kind in set(sweep.kinds)}
+    if motions is not None:
+        # Of one layer, not of the body: products of sparse matrices take as long as the factor.
+        blocks = {kind: of_motions(each, motions) for kind, each in blocks.items()}
     heights = len(sweep.heights)
-    size = 3 * len(section.nodes.points)
+    size = 3 * len(section.nodes.points) if motions is None else motions.shape[1]
     # A block in every row and column, so that the matrix has all.
     rows = [[sparse.csr_matrix((size, size)) if 0 in (i, j) else None for j in range(heights)] for i in range(heights)]
     for layer, kind in enumerate(sweep.kinds):
@@ -120,6 +123,11 @@ def swept_stiffness(section: SectionForms, sweep: Sweep) -> sparse.csr_matrix:
             column = 2 * layer + high
             row[column] = block if row[column] is None else row[column] + block
     return sparse.bmat(rows, format="csr")
+
+
+def of_motions(blocks: dict, motions: sparse.csr_matrix | np.ndarray) -> dict:
+    """Blocks of a layer's stiffness (3n, 3n) on motions (3n, r) of its sections; dense where these are."""
+    return {pair: motions.T @ (block @ motions) for pair, block in blocks.items()}
 
 
 def layer_of_kind(section: SectionForms, twist: float, kind: tuple[float, bool]) -> Blocks:

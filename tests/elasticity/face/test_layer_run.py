@@ -1,7 +1,6 @@
 """Runs of layers, by the inverse of all of their sections at once."""
 
 import numpy as np
-from scipy import sparse
 
 from fenics_gears.elasticity.face.layer_run import LayerRun
 
@@ -16,7 +15,7 @@ def _layer(generator) -> np.ndarray:
 
 def _run(matrix: np.ndarray) -> LayerRun:
     blocks = {
-        (row, column): sparse.csr_matrix(matrix[row * SECTION :, column * SECTION :][:SECTION, :SECTION])
+        (row, column): matrix[row * SECTION :, column * SECTION :][:SECTION, :SECTION]
         for row, column in np.ndindex(3, 3)
     }
     return LayerRun.of_layer(blocks, FLANK)
