@@ -31,7 +31,7 @@ from .planetary_schema import (
     second_in,
 )
 from .train_pair import STAGES
-from .train_rules import ENDS, wrong_title
+from .train_rules import ENDS
 
 # Sections of a train with a set.
 OF_THE_TRAIN = ("title", STAGES, *ENDS, "friction", "accuracy")
@@ -80,7 +80,6 @@ def wrong_sections(tree: Tree, known: Sequence[str] = OF_THE_TRAIN) -> Iterator[
         if isinstance(written, Mapping) and name in written:
             said = "is not computed with a planetary set yet, which has one input and one output. Leave it out."
             yield Problem((section, name), as_written(written[name]), said)
-    yield from wrong_title(tree)
 
 
 def text_of_set(stage: str, content: Tree) -> tuple[PlanetaryText | None, list[Problem]]:
