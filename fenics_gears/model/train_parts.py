@@ -25,6 +25,7 @@ from fenics_gears.scene.train_shafts import TrainShafts
 from .drivetrain import lumped_gears, support_of
 from .model import Model, differ_only, model_of
 from .shared_gears import check_shared
+from .train_shafts import bent_shafts, turning_of
 
 if TYPE_CHECKING:
     from fenics_gears.dynamics.train_shafts import BentShafts
@@ -61,9 +62,6 @@ def parts_of(meshes: Sequence[MeshOfScene], shafts: TrainShafts) -> TrainParts:
     torsion = [inf if each is None else each for each in shafts.torsion or (None,) * (graph.last + 1)]
     turning: list[int] = []
     if shafts.bent:
-        # Trains on rigid shafts load neither beams nor bearings.
-        from .train_shafts import turning_of
-
         twists, turning = turning_of(meshes, shafts, graph)
         for number, twist in twists.items():
             torsion[number] = twist
@@ -202,9 +200,6 @@ def model_of_mesh(mesh: MeshOfScene, scene: Scene, known: Known) -> Model:
 def bent_of(meshes: Sequence[MeshOfScene], shafts: TrainShafts) -> BentShafts | None:
     if not shafts.bent:
         return None
-    # Trains on rigid shafts load neither beams nor bearings.
-    from .train_shafts import bent_shafts
-
     return bent_shafts(meshes, shafts)
 
 

@@ -15,8 +15,7 @@ from fenics_gears.geometry.pair import GearPair
 from fenics_gears.model.train import train_model_of
 from fenics_gears.results.layout import MICRORADIANS, OF_OUTPUTS
 from fenics_gears.results.mesh_of_train import carried_train, mesh_run
-from fenics_gears.results.overall_orders import overall_orders
-from fenics_gears.results.ramp_orders import ramp_orders
+from fenics_gears.results.overall_orders import overall_orders, ramp_orders
 from fenics_gears.scene.train import TrainScene
 from fenics_gears.scene.train_layout import centres
 from fenics_gears.scene.train_mesh import gear_names
