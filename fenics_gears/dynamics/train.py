@@ -207,7 +207,7 @@ def train_drivetrain(
     rows = rows or Rows(parts)
     graph = parts.graph
     meshes = range(len(parts.pairs))
-    turns = turns_of_shafts(graph, [(pair.pinion.teeth, pair.wheel.teeth) for pair in parts.pairs])
+    turns = turns_of_shafts(graph, [pair.teeth for pair in parts.pairs])
     of_meshes = tuple(rows.of_mesh(mesh) for mesh in meshes)
     names_of = [coordinates_of_mesh(parts, mesh) for mesh in meshes]
 

@@ -32,7 +32,7 @@ from .train_loads import LoadOfShaft, TrainLoad
 from .train_mesh import MeshOfScene, gear_names, layout_of, rows_of
 from .train_pair import MistakesOfStage, TrainMistakes
 from .train_rules import TrainSections, checked_train
-from .train_scene import TrainScene, exact_turns, turns_of
+from .train_scene import TrainScene, turns_of
 from .train_shafts import located_shafts
 from .train_stages import meshes_of_stages
 
@@ -176,7 +176,6 @@ def _completed(
     layout = layout_of(meshes)
     graph = layout.graph
     turns = turns_of(layout)
-    exact = exact_turns(layout)
     speed = motion.input_speed
     if motion.speed is not None:
         speed = motion.speed / turns[sections.shafts.speed_of]
@@ -188,7 +187,7 @@ def _completed(
     given = given and speed is not None
     periods = [int(common_period(mesh.scene)) for mesh in meshes]
     # Meshes of one gear have one frequency to the last digit.
-    lengths = [exact[graph.between[number][0]] * mesh.pair.pinion.teeth / first for number, mesh in enumerate(meshes)]
+    lengths = [layout.turns[shaft] * pair.pinion.teeth / first for (shaft, _), pair in zip(graph.between, layout.pairs)]
     cycles = [motion.mesh_cycles or 1] * len(meshes)
     if motion.mesh_cycles is None and sections.shafts.carrier is None:
         cycles = _whole_periods(meshes, periods, lengths, sections.shafts.moving)

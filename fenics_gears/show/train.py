@@ -86,7 +86,7 @@ def drawing_of(scene: TrainScene) -> Chart:
         # A gear of several meshes is drawn in its first one.
         mesh, side = sides[0]
         pair = scene.meshes[mesh].pair
-        gear = (pair.pinion, pair.wheel)[side]
+        gear = pair.gears[side]
         stage, _, own = name.rpartition(".")
         words = f"{stage}: {f'gear {own}' if own.isdigit() else own}, {gear.teeth} teeth"
         curves += _circles(at[graph.shafts[number]], gear, pair, words, _colour(number))

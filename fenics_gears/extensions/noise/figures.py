@@ -9,6 +9,7 @@ import numpy as np
 import xarray as xr
 
 from fenics_gears import MICROMETRE, ComputationError, carried_scene, of_settled, spectrum
+from fenics_gears.scene_text import GEARS
 
 from .sidebands import sidebands
 
@@ -17,7 +18,6 @@ SIGNALS = {
     "mesh_force": ("N", "mesh force"),
 }
 HARMONICS = np.arange(1, 11)
-GEARS = ("pinion", "wheel")
 
 
 def noise_figures(result: xr.Dataset, window: str | None = None) -> xr.Dataset:
