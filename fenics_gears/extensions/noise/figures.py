@@ -47,7 +47,7 @@ def noise_figures(result: xr.Dataset, window: str | None = None) -> xr.Dataset:
         if ramp:
             figures = figures.assign(_followed(name, values, run, used)).set_coords("mesh_frequency")
         else:
-            figures = figures.assign(_steady(name, values, cycles, (gears.pinion.teeth, gears.wheel.teeth), window))
+            figures = figures.assign(_steady(name, values, cycles, gears.teeth, window))
     return figures
 
 

@@ -189,7 +189,7 @@ def _reduced_mass(scene: Scene, pair: GearPair) -> float:
     """kg/mm: of the scene's moments of inertia, or of solid steel gears."""
     if scene.inertia is None:
         return solid_reduced_mass(pair)
-    gears = zip(lumped_gears(scene, pair).values(), (pair.pinion, pair.wheel))
+    gears = zip(lumped_gears(scene, pair).values(), pair.gears)
     first, second = (KILOGRAM * each.moment_of_inertia / gear.base_radius**2 / pair.face_width for each, gear in gears)
     return first * second / (first + second)
 
