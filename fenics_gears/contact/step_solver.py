@@ -8,7 +8,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from .addresses import form_rows, row_of
-from .existence import explained
 from .laws import OPEN, SLIP_FORWARD
 from .mixed_form import Iterate, StepEquations
 from .newton import (
@@ -69,6 +68,9 @@ def solve_step(problem: StepEquations, status: np.ndarray, max_iterations: int =
         if result[0] == CONVERGED:
             outcome, iterations, forces, coordinates, displacement, sets = result
             return StepSolution(forces, coordinates, displacement, sets, spent, method)
+    # Of a step that no method solves.
+    from .existence import explained
+
     _form_all(problem)
     raise explained(problem, attempts)
 

@@ -15,7 +15,6 @@ from threadpoolctl import ThreadpoolController
 
 from fenics_gears.contact.addresses import march_with_inertia
 from fenics_gears.contact.errors import ContactNotConverged
-from fenics_gears.contact.existence import locks
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.uniqueness import uncertified
 from fenics_gears.errors import MemoryEnded
@@ -279,6 +278,9 @@ class Marcher:
 
     def _locked(self, solved: Steps) -> list[int]:
         """The steps at which friction at a closed node cancels more of the load than its normal force holds."""
+        # Of few runs.
+        from fenics_gears.contact.existence import locks
+
         wheel = self.stepper.drivetrain.driven
 
         def is_locked(record: Record) -> bool:

@@ -32,8 +32,8 @@ from fenics_gears.contact.tooth_pair import DRIVE, PairNodes, Place, nodal_gap
 from fenics_gears.contact.uniqueness import between_closed
 from fenics_gears.contact.window import ContactGrid, node_offsets
 from fenics_gears.dynamics.compiled_march import Course, Motion, solve_steps
-from fenics_gears.dynamics.contact_work import contact_work
 from fenics_gears.dynamics.drivetrain import Drivetrain
+from fenics_gears.dynamics.energy_account import contact_work
 from fenics_gears.dynamics.steps import Steps, drive_flanks_touch, smallest_openings
 from fenics_gears.dynamics.time_integration import Scheme
 from fenics_gears.results.contact_variables import energy_of_teeth
