@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from fenics_gears.commands.work.shared import plots
+from fenics_gears.show import pair_drawing
 from fenics_gears.show.chart import BAND, BARS, LINES, MARKED_LINES, MARKERS, WORDS, Chart, Curve, Field, span, stems
 from fenics_gears.show.harris_map import harris_map, words_apart
 from fenics_gears.show.interactive import figure as plotly_figure
@@ -55,17 +56,12 @@ def gears_of_train(scene: TrainScene) -> tuple[list[DrawnGear], float]:
 
 def gear_outline(pair: GearPair, gear: int, phase: float) -> np.ndarray:
     """Outline (n, 2), mm, of the pinion (0) or the wheel (1) at a phase of the mesh cycle; line of centres upright."""
-    # Stands on bodies of finite elements, which other charts do not load.
-    from fenics_gears.show.pair_drawing import gear_outline
-
-    return gear_outline(pair, gear, phase)
+    return pair_drawing.gear_outline(pair, gear, phase)
 
 
 def tooth_points(gear: Gear) -> np.ndarray:
     """Outline (n, 2), mm, of one tooth, from the middle of a space to the middle of the next."""
-    from fenics_gears.show.pair_drawing import tooth_points
-
-    return tooth_points(gear)
+    return pair_drawing.tooth_points(gear)
 
 
 def draw_run(dataset: xr.Dataset, directory: Path) -> list[Path]:

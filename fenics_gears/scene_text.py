@@ -14,7 +14,7 @@ True
 from fenics_gears.inputs.allowed import AllowedFile, AllowedNumber
 from fenics_gears.inputs.fields import choice, declared, text, whole_number
 from fenics_gears.inputs.limits import Limit, limits_of, what_is_allowed
-from fenics_gears.inputs.problem import NOTHING_DONE, Problem, did_you_mean, line_numbers, listed
+from fenics_gears.inputs.problem import NOTHING_DONE, Mistakes, Problem, did_you_mean, line_numbers, listed
 from fenics_gears.inputs.section import Section, names_in, read
 from fenics_gears.inputs.tree import GEARS, Tree, over_the_face, value_at, wheel_torque
 from fenics_gears.inputs.written import as_written
@@ -26,7 +26,7 @@ from fenics_gears.scene.train_pair import STAGES
 from fenics_gears.studies import fields
 from fenics_gears.studies.axis import AxisError, factor_of, number_in, values_in_words, values_of
 from fenics_gears.studies.scenes import Models, NoScene, SceneChanges, model_of_tree
-from fenics_gears.studies.study_file import Mistakes, entries, left_out
+from fenics_gears.studies.study_file import entries, left_out
 
 __all__ = [
     "GEARS", "LOAD_WORDS", "NOTHING_DONE", "STAGES", "AllowedFile", "AllowedNumber", "AxisError", "Limit", "Mistakes",

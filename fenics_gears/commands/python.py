@@ -8,14 +8,14 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import NoReturn
 
+from fenics_gears.system.environment import cache_folder
+
 KERNEL = "python3"
 
 
 def carry_out(options: Sequence[str]) -> NoReturn:
     """Become Python with these arguments, in the folder of the call; ./gears has set the path to the checkout."""
     if list(options[:1]) == ["-m"] and "jupyter" in "".join(options[1:2]):
-        from fenics_gears.system.environment import cache_folder
-
         offer_kernel(cache_folder() / "fenics_gears" / "jupyter")
     sys.stdout.flush()
     os.execv(sys.executable, [sys.executable, *options])

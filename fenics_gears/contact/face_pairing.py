@@ -26,6 +26,7 @@ from .addresses import form_rows
 from .compliance_product import directions
 from .face import Face
 from .face_ends import ends_of
+from .face_seat import seat_motions
 from .fine_sections import SECTION, SLICE, TOOTH, Fine, SectionNodes, by_nodes, groups_of, stacked, together
 from .formed_rows import FormedRows, fine_section, uncertain_slices
 from .interpolation import FlankInterpolation
@@ -85,9 +86,6 @@ class FacePairing:
             parts = zip(along(body.near.heights), body.near.compliance, body.near.normals)
             additions += [along_normals(*part, flank * face.slices) for flank, part in enumerate(parts)]
         if body.seat is not None:
-            # Imported here: few gears are cut into a shaft.
-            from .face_seat import seat_motions
-
             weights = slice_averages(body.heights, body.element_order, positions, face.widths)
             additions.append(seat_motions(weights, body, side.gear, rises[0]))
         return SliceCompliance(body.blocks, along(body.heights), face.slices, additions)

@@ -68,6 +68,7 @@ def solve_step(problem: StepEquations, status: np.ndarray, max_iterations: int =
         if result[0] == CONVERGED:
             outcome, iterations, forces, coordinates, displacement, sets = result
             return StepSolution(forces, coordinates, displacement, sets, spent, method)
+    # Of a step that no method solves.
     from .existence import explained
 
     _form_all(problem)

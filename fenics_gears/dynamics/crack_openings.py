@@ -9,6 +9,7 @@ import numpy as np
 
 from fenics_gears.contact.flank_forces import flank_rows
 from fenics_gears.contact.tooth_pair import node_slices
+from fenics_gears.contact.whole_body_mesh import first_tooth
 from fenics_gears.geometry.side import Side
 from fenics_gears.inputs.tree import GEARS
 
@@ -23,8 +24,6 @@ def openings_of(cycle, side: Side, record: Record) -> np.ndarray:
 
     From forces on teeth within the reach of the body's compliance; others hardly move a crack.
     """
-    from fenics_gears.contact.whole_body_mesh import first_tooth
-
     body = cycle.bodies[side.number]
     operator = record.position.operator
     forces = record.solution.forces

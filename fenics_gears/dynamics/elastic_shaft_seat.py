@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from .beam import beams, properties
+from .elastic_shaft_hub import hub_flexibility
 from .shaft_elements import SIX, Assembly, carried, motions_of
 
 if TYPE_CHECKING:
@@ -120,9 +121,6 @@ class Seat:
         shaft = self.shaft
         gear = self.gear
         if gear.hub is not None:
-            # Imported here: few gears have a hub that gives way.
-            from .elastic_shaft_hub import hub_flexibility
-
             return hub_flexibility(gear.hub, heights, axis)
         begin, end = gear.ends
         places = np.array([*(gear.at + heights), *(gear.at + axis), end])

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import ThreadPoolExecutor
-from contextlib import contextmanager, nullcontext
+from collections.abc import Callable, Sequence
+from contextlib import nullcontext
 from functools import cache, cached_property
 from math import ceil
 from threading import Event
-from typing import Any, TypeVar
+from typing import TypeVar
 
 import numpy as np
 from threadpoolctl import ThreadpoolController
@@ -17,10 +16,12 @@ from threadpoolctl import ThreadpoolController
 from fenics_gears.contact.addresses import march_with_inertia
 from fenics_gears.contact.errors import ContactNotConverged
 from fenics_gears.contact.mesh_cycle import Cycle
+from fenics_gears.contact.uniqueness import uncertified
 from fenics_gears.errors import MemoryEnded
 from fenics_gears.system.memory import SHARE_OF_A_BLOCK
 
-from .batch import Batch, Block, OpenedNodes
+from .batch import Batch, OpenedNodes
+from .block import Block, at_once
 from .marched import March
 from .stepping import EquationsOfMotion
 from .steps import Record, Steps
@@ -30,7 +31,6 @@ SECONDS_BETWEEN_REPORTS = 0.1
 LONGEST_BLOCK = 512
 
 Solved = TypeVar("Solved")
-Value = TypeVar("Value")
 Report = Callable[[int], None]
 # Takes the next steps of a run.
 Take = Callable[[int, Steps], None]
@@ -40,18 +40,6 @@ Take = Callable[[int, Steps], None]
 def thread_pools() -> ThreadpoolController:
     """The libraries with threads that are loaded as the first march begins: to find them takes milliseconds."""
     return ThreadpoolController()
-
-
-@contextmanager
-def at_once(work: Callable[..., Value], *arguments: Any) -> Iterator[Callable[[], Value]]:
-    """Meanwhile a second thread does `work(*arguments, ended)`, which ends early when `ended` is set; waits for what it
-    returns."""
-    ended = Event()
-    with ThreadPoolExecutor(1) as second:
-        try:
-            yield second.submit(work, *arguments, ended).result
-        finally:
-            ended.set()
 
 
 class Marcher:
@@ -290,6 +278,7 @@ class Marcher:
 
     def _locked(self, solved: Steps) -> list[int]:
         """The steps at which friction at a closed node cancels more of the load than its normal force holds."""
+        # Of few runs.
         from fenics_gears.contact.existence import locks
 
         wheel = self.stepper.drivetrain.driven
@@ -301,7 +290,5 @@ class Marcher:
         return [int(record.step) for record in solved.records if record.step > 0 and is_locked(record)]
 
     def _judge(self, march: March, steps: Steps) -> None:
-        from fenics_gears.contact.uniqueness import uncertified
-
-        unproven = uncertified(march.stiffness, march.friction, steps.solved)
-        march.judged, march.uncertified = march.judged + len(steps), march.uncertified + unproven
+        march.judged += len(steps)
+        march.uncertified += uncertified(march.stiffness, march.friction, steps.solved)

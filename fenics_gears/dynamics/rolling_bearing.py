@@ -10,6 +10,7 @@ Motions and loads are those of `elastic_shaft.MOTIONS`, in mm, rad, N and N mm.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from functools import cache
 from itertools import pairwise
@@ -17,7 +18,6 @@ from math import cos, log, pi, sin, sqrt
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-from scipy.optimize import brentq
 from scipy.special import ellipe, ellipk
 
 from fenics_gears.errors import SceneError
@@ -109,7 +109,7 @@ def _braced(rolling: RollingBearing) -> np.ndarray:
 
     if missing(0.0) * missing(far) > 0.0:
         raise SceneError(f"bearings: no axial motion gives a preload of {rolling.preload:g} N; lower it")
-    return np.copysign(brentq(missing, 0.0, far, xtol=1e-15, rtol=1e-15), rolling.contact_angle) * axis
+    return np.copysign(_root(missing, 0.0, far, xtol=1e-15, rtol=1e-15), rolling.contact_angle) * axis
 
 
 def _reaction(rolling: RollingBearing, motion: np.ndarray) -> Reaction:
@@ -182,7 +182,7 @@ def _axes_of_ellipse(difference: float) -> float:
         parameter = 1.0 - 1.0 / squared
         return 1.0 - 2.0 / (squared - 1.0) * (ellipk(parameter) / ellipe(parameter) - 1.0) - difference
 
-    return float(np.exp(brentq(missing, 1e-4, log(1e6), xtol=1e-14)))
+    return float(np.exp(_root(missing, 1e-4, log(1e6), xtol=1e-14)))
 
 
 def _of_rollers(rolling: RollingBearing, motion: np.ndarray) -> Reaction:
@@ -214,3 +214,10 @@ def _profile(rolling: RollingBearing, places: np.ndarray) -> np.ndarray:
         straight = 0.0
     beyond = np.maximum(2.0 * np.abs(places) - straight, 0.0) / (length - straight)
     return -amount * rolling.diameter * np.log1p(-(beyond**2))
+
+
+def _root(function: Callable[[float], float], low: float, high: float, **tolerances: float) -> float:
+    # It loads in 50 ms, which shafts without such bearings do not wait for.
+    from scipy.optimize import brentq
+
+    return brentq(function, low, high, **tolerances)

@@ -150,13 +150,9 @@ class RowsOfSet(Rows):
         held = [of_members[member] for member in WITH_RING if member != self.own.output]
         parts = np.linalg.solve([[rolls, 1.0] for _, rolls in held], [-own for own, _ in held])
         whole = turned + parts[0] * rolling + parts[1]
-        motion = np.zeros(len(self.names))
-        names = [*(f"rotation_{shaft + 1}" for shaft in range(last + 1)), CARRIER]
-        for name, rotation in zip(names, [*whole, parts[1]]):
-            if name in self.names:
-                place = self.names.index(name)
-                motion[place] = abs(self.radii[place]) * rotation
-        return tuple(motion / np.linalg.norm(motion))
+        return self.of_rotations(
+            {f"rotation_{shaft}": turn for shaft, turn in enumerate(whole, 1)} | {CARRIER: parts[1]}
+        )
 
 
 def set_drivetrain(

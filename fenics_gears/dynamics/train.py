@@ -188,10 +188,11 @@ class Rows:
 
     def motion_of(self, shafts: Sequence[int], turns: Sequence[Fraction]) -> tuple[float, ...]:
         """The motion (k,) of shafts that turn together, of length 1; `turns` of each shaft in one of the first."""
-        motion = np.zeros(len(self.names))
-        for shaft in shafts:
-            place = self.names.index(f"rotation_{shaft + 1}")
-            motion[place] = abs(self.radii[place]) * float(turns[shaft] / turns[shafts[0]])
+        return self.of_rotations({f"rotation_{each + 1}": float(turns[each] / turns[shafts[0]]) for each in shafts})
+
+    def of_rotations(self, rotations: Mapping[str, float]) -> tuple[float, ...]:
+        """The motion (k,), of length 1, in which coordinates turn in these ratios."""
+        motion = np.array([abs(each) * rotations.get(name, 0.0) for name, each in zip(self.names, self.radii)])
         return tuple(motion / np.linalg.norm(motion))
 
 
@@ -207,7 +208,7 @@ def train_drivetrain(
     rows = rows or Rows(parts)
     graph = parts.graph
     meshes = range(len(parts.pairs))
-    turns = turns_of_shafts(graph, [(pair.pinion.teeth, pair.wheel.teeth) for pair in parts.pairs])
+    turns = turns_of_shafts(graph, [pair.teeth for pair in parts.pairs])
     of_meshes = tuple(rows.of_mesh(mesh) for mesh in meshes)
     names_of = [coordinates_of_mesh(parts, mesh) for mesh in meshes]
 

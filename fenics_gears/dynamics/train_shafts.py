@@ -16,6 +16,7 @@ import numpy as np
 from scipy.linalg import block_diag
 
 from fenics_gears.geometry.pair import GearPair
+from fenics_gears.inputs.tree import GEARS
 
 from .damping import Damping, damping_of
 from .drivetrain import Drivetrain, MeshSprings
@@ -30,7 +31,6 @@ from .train import mass_of_gear
 if TYPE_CHECKING:
     from fenics_gears.geometry.gear_data import LumpedGear
 
-SIDES = ("pinion", "wheel")
 # Axes of a train: to the right, up, and along its shafts.
 SPACE = np.eye(3)
 
@@ -98,7 +98,7 @@ class BentShafts:
         for gear in self.in_mesh(mesh):
             if gear.seat.yields_within:
                 system = next(each for each in self.systems if gear.seat in (seat for _, seat in each.seated))
-                found.append(SeatOfMesh(system, gear.seat, SIDES[gear.side], gear.turned))
+                found.append(SeatOfMesh(system, gear.seat, GEARS[gear.side], gear.turned))
         return found
 
     def in_mesh(self, mesh: int) -> list[GearOnShaft]:
@@ -136,9 +136,9 @@ def shafts_of_pair(
 ) -> BentShafts:
     """The shafts of a pair that bend, in the frame of its mesh, under a torque (N mm) on the wheel."""
     seats = [seat for system in systems for _, seat in system.seated]
-    gears = tuple(GearOnShaft(seat, 0, SIDES.index(seat.gear), np.eye(2 * len(SPACE))) for seat in seats)
+    gears = tuple(GearOnShaft(seat, 0, GEARS.index(seat.gear), np.eye(2 * len(SPACE))) for seat in seats)
     axes = {seat.gear: SPACE for seat in seats}
-    turns = dict(zip(SIDES, (1.0, -pair.pinion.teeth / pair.wheel.teeth)))
+    turns = dict(zip(GEARS, (1.0, -pair.rotation_ratio)))
     return BentShafts(systems, axes, gears, (MeshFrame(SPACE, pair, torque),), masses, turns)
 
 
@@ -149,7 +149,7 @@ def even_loads(system: ShaftSystem, gears: Sequence[GearOnShaft], frames: Sequen
         for gear in gears:
             if gear.seat.gear == seat.gear:
                 frame = frames[gear.mesh]
-                own += gear.turned[:FIVE, :FIVE].T @ even_load(SIDES[gear.side], frame.pair, frame.torque)
+                own += gear.turned[:FIVE, :FIVE].T @ even_load(GEARS[gear.side], frame.pair, frame.torque)
     return loads.ravel()
 
 

@@ -1,5 +1,5 @@
 """``[damping]``: Rayleigh damping of each shaft (``dynamics.drivetrain``), or damping ratios of the modes
-(``dynamics.modal_damping``)."""
+(``dynamics.damping``)."""
 
 from fenics_gears.dynamics.damping import MODAL, RAYLEIGH, Damping
 from fenics_gears.inputs.problem import Broken

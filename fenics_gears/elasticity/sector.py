@@ -10,6 +10,7 @@ from .element_nodes import ElementNodes, dofs_of, element_nodes
 from .elements import Element
 from .face.layers import Sweep, swept_nodes
 from .face.swept_stiffness import SectionForms, swept_stiffness
+from .foundation import add_foundation
 from .mesh_data import BodyMesh
 from .mumps import Factor
 from .stiffness import assembled, compile_ahead, displacement_space, nodes_at, stiffness_matrix
@@ -102,8 +103,6 @@ def plane_sector(mesh: BodyMesh, element: Element, poissons_ratio: float) -> Sec
     nodes = element_nodes(mesh, element)
     matrix = stiffness_matrix(space, element, poissons_ratio, mesh.web)
     if mesh.foundation is not None:
-        from .foundation import add_foundation
-
         add_foundation(matrix, mesh, element.order, partial(nodes_at, space))
     stiffness = assembled(matrix)
     order = dofs_of(nodes_at(space, nodes.points))

@@ -175,6 +175,11 @@ class GearPairData(PerGear):
         return None if material is None else material.youngs_modulus
 
     @property
+    def teeth(self) -> tuple[int, int]:
+        """Numbers of teeth of both gears; negative of an internal one."""
+        return self.pinion.teeth, self.wheel.teeth
+
+    @property
     def face_widths(self) -> tuple[float, float]:
         """Width (mm) of the pinion and of the wheel."""
         first, second = (gear.face_width or self.face_width for gear in self.of_gears)

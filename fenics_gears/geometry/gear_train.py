@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import cached_property
 from math import cos, floor, pi, sin
 
@@ -20,7 +21,7 @@ from fenics_gears.errors import GeometryError
 from .gear import Gear
 from .outline import centreline_angle
 from .pair import GearPair
-from .train_graph import PINION, TrainGraph
+from .train_graph import PINION, TrainGraph, turns_of_shafts
 
 # Of phases, in mesh cycles.
 ROUND_OFF = 1e-9
@@ -65,6 +66,11 @@ class Layout:
     pairs: Sequence[GearPair]
     directions: Sequence[float]
     begun: Sequence[float] = ()
+
+    @cached_property
+    def turns(self) -> list[Fraction]:
+        """Turns of each shaft in one turn of the first, in either sense."""
+        return turns_of_shafts(self.graph, [pair.teeth for pair in self.pairs])
 
     @cached_property
     def phases(self) -> list[float]:
@@ -112,7 +118,7 @@ class Layout:
     def gear(self, number: int) -> Gear:
         """A gear by its number."""
         mesh, side = self.graph.sides[number][0]
-        return (self.pairs[mesh].pinion, self.pairs[mesh].wheel)[side]
+        return self.pairs[mesh].gears[side]
 
     def axes(self, mesh: int) -> np.ndarray:
         """Directions (2, 2), in rows, along and off the line of action of a mesh."""

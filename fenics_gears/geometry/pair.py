@@ -48,6 +48,11 @@ class GearPair:
         """Both gears, the driving one first: the order of everything that has a part for each."""
         return self.pinion, self.wheel
 
+    @property
+    def teeth(self) -> tuple[int, int]:
+        """Numbers of teeth of both gears; negative of an internal one."""
+        return self.pinion.teeth, self.wheel.teeth
+
     @cached_property
     def sides(self) -> tuple[Side, Side]:
         """Both gears as sides of the mesh."""

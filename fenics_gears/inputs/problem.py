@@ -6,6 +6,8 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
+from fenics_gears.errors import SceneError
+
 Path = tuple[str, ...]
 # By this name a section has the tables that a file may also list in its place.
 LISTED = "each"
@@ -54,6 +56,24 @@ def counted(entries: Sequence[str], count: int, source: str) -> str:
     more = [f"... and {count - MOST_TOLD} more"] if count > MOST_TOLD else []
     total = f"{count} mistake{'s' if count > 1 else ''} in {source}. {NOTHING_DONE}"
     return "\n".join([*entries[:MOST_TOLD], *more, total])
+
+
+class Mistakes:
+    """The mistakes of a file so far, each once."""
+
+    def __init__(self, source: str, lines: Mapping[Path, int]):
+        self._source = source
+        self._lines = lines
+        self._said: dict[str, None] = {}
+
+    def add(self, path: Path, written: str | None, message: str) -> None:
+        """Note a mistake at a path of the file; ``written`` as for `Problem`."""
+        problem = Problem(path, written, message)
+        self._said.setdefault(problem.describe(self._source, self._lines))
+
+    def check(self) -> None:
+        if self._said:
+            raise SceneError(counted(list(self._said), len(self._said), self._source))
 
 
 def placed(said: str, text: str, source: str) -> str:

@@ -61,7 +61,7 @@ def _condensing(model: Model, number: int):
 def both_at_once(model: Model) -> bool:
     """Whether the bodies of both gears differ, and can be condensed at the same time in the memory that the run may
     take."""
-    gears = zip((model.pair.pinion, model.pair.wheel), model.scene.gears.materials)
+    gears = zip(model.pair.gears, model.scene.gears.materials)
     if len({(gear, material, face_discretisation(model, number)) for number, (gear, material) in enumerate(gears)}) < 2:
         return False
     return 2 * CONDENSING_PROGRAM + sum(_condensing(model, number).memory for number in range(2)) <= allowed_memory()

@@ -201,7 +201,7 @@ class Model:
         run = self.scene.motion.mesh_cycles
         if not run < period < inf:
             return []
-        whole = lcm(self.scene.gears.pinion.teeth, self.scene.gears.wheel.teeth)
+        whole = lcm(*self.scene.gears.teeth)
         words = f' or "{HUNTING_TOOTH_PERIOD}"' if period == whole and self.of_slowest is None else ""
         return [
             f"only {run} of the {period} mesh cycles of the common period are run: cycles are not alike, and all"

@@ -128,7 +128,7 @@ def period_rows(model: Model) -> Rows:
     if period == inf:
         return [("mesh cycles of the common period", "none", "(no two mesh cycles are alike)")]
     words = "(all mesh cycles are alike)" if period == 1 else ""
-    if period > 1 and period == lcm(*(gear.teeth for gear in gears.of_gears)):
+    if period > 1 and period == lcm(*gears.teeth):
         words = "after which every tooth has met every other"
     return [("mesh cycles of the common period", period, words)]
 

@@ -18,6 +18,7 @@ from fenics_gears.dynamics.set_in_time import set_drivetrain
 from fenics_gears.dynamics.speed_ramp import RampClock, centrifugal_forces, inertia_forces
 from fenics_gears.dynamics.stepping import EquationsOfMotion, VaryingLoad
 from fenics_gears.dynamics.train import train_drivetrain
+from fenics_gears.dynamics.train_shafts import with_bent_shafts
 from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.elasticity.element_sizes import Discretisation
 from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
@@ -73,8 +74,6 @@ class RowModel(OfMeshes):
             return set_drivetrain(parts, own, self.shafts.damping, self.mesh_stiffness)
         if self.bent is None:
             return train_drivetrain(parts, self.shafts.damping, self.mesh_stiffness)
-        from fenics_gears.dynamics.train_shafts import with_bent_shafts
-
         names = [model.drivetrain.coordinates for model in self.models]
         return with_bent_shafts(train_drivetrain(parts), self.bent, names, self.shafts.damping, self.mesh_stiffness)
 

@@ -25,6 +25,7 @@ from fenics_gears.scene.train_shafts import TrainShafts
 from .drivetrain import lumped_gears, support_of
 from .model import Model, differ_only, model_of
 from .shared_gears import check_shared
+from .train_shafts import bent_shafts, turning_of
 
 if TYPE_CHECKING:
     from fenics_gears.dynamics.train_shafts import BentShafts
@@ -61,9 +62,6 @@ def parts_of(meshes: Sequence[MeshOfScene], shafts: TrainShafts) -> TrainParts:
     torsion = [inf if each is None else each for each in shafts.torsion or (None,) * (graph.last + 1)]
     turning: list[int] = []
     if shafts.bent:
-        # Trains on rigid shafts load neither beams nor bearings.
-        from .train_shafts import turning_of
-
         twists, turning = turning_of(meshes, shafts, graph)
         for number, twist in twists.items():
             torsion[number] = twist
@@ -133,7 +131,7 @@ def _pins_beside(carrier: Carrier, mesh: MeshOfScene, axes: np.ndarray, names: t
 
 def whole_torques(parts: TrainParts) -> list[float]:
     """Torque (N mm) on the wheel of each mesh without losses, as if all power went through it."""
-    turns = turns_of_shafts(parts.graph, [(pair.pinion.teeth, pair.wheel.teeth) for pair in parts.pairs])
+    turns = turns_of_shafts(parts.graph, [pair.teeth for pair in parts.pairs])
     return [
         sum(torque * float(turns[shaft] / turns[driven]) for shaft, torque in enumerate(parts.torques) if torque)
         for _, driven in parts.graph.between
@@ -144,9 +142,9 @@ def whole_steps(meshes: Sequence[MeshOfScene], least: Sequence[int]) -> list[int
     """Steps of the cycle of each mesh, all of one length in time and at least so many: whole numbers, by the teeth of
     the gears on each shaft, and such that meshes are whole steps ahead of those that they are like. Raises SceneError
     where they are too many."""
-    graph = layout_of(meshes).graph
-    turns = turns_of_shafts(graph, [(mesh.pair.pinion.teeth, mesh.pair.wheel.teeth) for mesh in meshes])
-    lengths = [1 / (turns[shaft] * mesh.pair.pinion.teeth) for mesh, (shaft, _) in zip(meshes, graph.between)]
+    layout = layout_of(meshes)
+    driving = [shaft for shaft, _ in layout.graph.between]
+    lengths = [1 / (layout.turns[shaft] * pair.pinion.teeth) for pair, shaft in zip(layout.pairs, driving)]
     whole = lcm(*(each.denominator for each in lengths))
     units = [int(each * whole) for each in lengths]
     common = gcd(*units)
@@ -202,9 +200,6 @@ def model_of_mesh(mesh: MeshOfScene, scene: Scene, known: Known) -> Model:
 def bent_of(meshes: Sequence[MeshOfScene], shafts: TrainShafts) -> BentShafts | None:
     if not shafts.bent:
         return None
-    # Trains on rigid shafts load neither beams nor bearings.
-    from .train_shafts import bent_shafts
-
     return bent_shafts(meshes, shafts)
 
 

@@ -14,7 +14,6 @@ from fenics_gears.dynamics.elastic_shaft import FIVE, ElasticShaft, SeatedGear
 from fenics_gears.dynamics.shaft_system import ShaftSystem
 from fenics_gears.dynamics.shafts import RIGID_SEAT
 from fenics_gears.dynamics.train_shafts import (
-    SIDES,
     SPACE,
     BentShafts,
     GearOnShaft,
@@ -28,8 +27,9 @@ from fenics_gears.effects.elastic_shaft_housing import check_housing, stiffness_
 from fenics_gears.effects.elastic_shaft_rules import bearings_hold, held_at_work
 from fenics_gears.effects.elastic_shaft_seats import seated
 from fenics_gears.errors import SceneError
-from fenics_gears.geometry.train_graph import TrainGraph, turns_of_shafts
+from fenics_gears.geometry.train_graph import TrainGraph
 from fenics_gears.inputs.problem import NOTHING_DONE
+from fenics_gears.inputs.tree import GEARS
 from fenics_gears.scene.train_mesh import MeshOfScene, gear_names, layout_of
 from fenics_gears.scene.train_shaft import BentShaft
 from fenics_gears.scene.train_shafts import TrainShafts
@@ -49,14 +49,15 @@ def bent_shafts(meshes: Sequence[MeshOfScene], shafts: TrainShafts) -> BentShaft
     frames = mesh_frames(meshes)
     masses: dict[str, LumpedGear] = {}
     up_to = 0.0
-    graph = layout_of(meshes).graph
+    layout = layout_of(meshes)
+    graph = layout.graph
     first = meshes[graph.out_of(0)[0]]
     speed = 2.0 * pi * first.scene.motion.mesh_frequency / first.pair.pinion.teeth
     faster = 1.0 if shafts.ramp is None else max(shafts.ramp.end_speed / speed, 1.0)
     for mesh in meshes:
         if mesh.scene.inertia is not None:
             of_mesh = lumped_gears(mesh.scene, mesh.pair)
-            masses |= {name: of_mesh[side] for name, side in zip(mesh.gears, SIDES)}
+            masses |= {name: of_mesh[side] for name, side in zip(mesh.gears, GEARS)}
             up_to = max(up_to, 2.0 * highest_of_interest(mesh.scene, mesh.pair, of_mesh, faster))
     axes = {}
     for bent in shafts.bent:
@@ -72,8 +73,7 @@ def bent_shafts(meshes: Sequence[MeshOfScene], shafts: TrainShafts) -> BentShaft
         ]
         systems.append(_at_work(system, own, frames))
         gears += own
-    turned = turns_of_shafts(graph, [(mesh.pair.pinion.teeth, mesh.pair.wheel.teeth) for mesh in meshes])
-    turns = {bent.name: graph.senses[bent.number] * float(turned[bent.number]) for bent in shafts.bent}
+    turns = {bent.name: graph.senses[bent.number] * float(layout.turns[bent.number]) for bent in shafts.bent}
     return BentShafts(tuple(systems), axes, tuple(gears), tuple(frames), masses, turns)
 
 
@@ -165,7 +165,7 @@ def _shaft(bent: BentShaft, meshes: Sequence[MeshOfScene], up_to: float) -> Elas
     constants = own.material.constants(scene.gears.materials[side])
     density = 0.0
     if scene.inertia is not None:
-        density = own.material.density or scene.inertia.of(SIDES[side]).density or 0.0
+        density = own.material.density or scene.inertia.of(GEARS[side]).density or 0.0
     shaft = ElasticShaft(
         bent.name, own.sections, constants, tuple(seats), own.torque_at, own.bearings, density=density,
         up_to=up_to if density else inf,
@@ -173,7 +173,7 @@ def _shaft(bent: BentShaft, meshes: Sequence[MeshOfScene], up_to: float) -> Elas
     kinds = dict(zip(own.carries, own.seats or ()))
     for number, seat in enumerate(seats):
         mesh, side = _places(meshes, seat.gear)[0]
-        gear = getattr(meshes[mesh].pair, SIDES[side])
+        gear = getattr(meshes[mesh].pair, GEARS[side])
         shaft = seated(shaft, number, kinds.get(seat.gear, RIGID_SEAT), gear, meshes[mesh].scene.gears.materials[side])
     return shaft
 

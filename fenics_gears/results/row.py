@@ -18,8 +18,10 @@ from fenics_gears.model.row_model import RowModel
 from .contact_variables import energy_of_teeth
 from .dataset import coordinates_of, variables_of
 from .key_numbers import key_numbers
+from .planetary import result_of_set
 from .recorder import Recorder
 from .train import OF_ENERGY, MeshResult
+from .train_shafts import ShaftsOfTrain
 
 if TYPE_CHECKING:
     from .train_shafts import ResultOfShafts
@@ -82,11 +84,7 @@ class RowResult:
         row = self._row
         carrier = row.shafts.carrier
         if carrier is not None:
-            from .planetary import result_of_set
-
             return result_of_set(row, carrier, states, [recorder.arrays for recorder in self._recorders])
-        from .train_shafts import ShaftsOfTrain
-
         return ShaftsOfTrain(row.drivetrain, row.bent, states).result(row.recorded)
 
     def _friction_loss(self) -> float:

@@ -124,7 +124,8 @@ def known_orders(scene: Scene) -> list[tuple[float, str]]:
     errors = scene.flank_errors
     run_out = scene.eccentricity
     known = []
-    for name, turns in zip(GEARS, (1.0, scene.gears.pinion.teeth / scene.gears.wheel.teeth)):
+    teeth = scene.gears.teeth
+    for name, turns in zip(GEARS, (1.0, teeth[0] / teeth[1])):
         if run_out is not None and getattr(run_out, name) is not None:
             known.append((turns, f"run-out of the {name}"))
         waves = None if errors is None else getattr(errors, name).waviness

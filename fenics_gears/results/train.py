@@ -19,11 +19,10 @@ from fenics_gears.scene.train_scene import Link
 from .attributes import RESULT_ATTRIBUTES
 from .carried_scene import files_of
 from .dataset import RunResult
-from .layout import OVERALL
+from .layout import OF_OUTPUTS, OVERALL
 from .mesh_of_train import SHARED, over_meshes
 from .path_shares import path_shares
 from .sets_in_train import MESH, side_by_side
-from .train_outputs import lag_of_output, of_outputs
 
 if TYPE_CHECKING:
     from .train_shafts import ResultOfShafts
@@ -235,3 +234,32 @@ def _of_rows(model: TrainModel) -> list[str]:
     coupled: list[RowModel] = [row for row in model.rows if not row.single]
     of_meshes = [said for row in coupled for said in row.warnings_of_meshes]
     return [*of_meshes, *(said for row in coupled for said in row.warnings)]
+
+
+def lag_of_output(model: TrainModel, meshes: Sequence[MeshResult], shaft: int) -> np.ndarray:
+    """Lag (rad) of a shaft that drives no gear behind the nominal motion of the first, at all steps of meshes that
+    move together."""
+    # The gears that their shafts' clocking does not turn.
+    carried = model.scene.shafts.carried
+    sides = [mesh.gears for mesh in model.scene.meshes]
+    ends = [[both[0] for both in sides].index(carried[0][0]), [both[1] for both in sides].index(carried[shaft][0])]
+    first, last = (np.asarray(meshes[number].variables["rotation"][1])[:, side] for side, number in enumerate(ends))
+    ratio = model.scene.ratio if shaft == model.scene.graph.last else 1.0 / model.scene.turns[shaft]
+    return model.scene.meshes[ends[1]].pair.wheel.sign * last + first / ratio
+
+
+def of_outputs(model: TrainModel, meshes: Sequence[MeshResult]) -> dict[str, tuple]:
+    """Lag of each shaft that drives no gear, where there are several."""
+    scene = model.scene
+    outputs = scene.graph.outputs
+    if len(outputs) == 1:
+        return {}
+    lags = np.stack([lag_of_output(model, meshes, shaft) for shaft in outputs], axis=1)
+    names = [scene.shafts.carried[shaft][0] for shaft in outputs]
+    words = "lag of each shaft that drives no gear behind the nominal motion of the first"
+    last = slice(-1 - model.rows[0].recorded if model.rows[0].recorded else None, None)
+    return {
+        f"peak_to_peak_{OF_OUTPUTS}": ("output", np.ptp(lags[last], axis=0), {"units": "rad", "long_name": words}),
+        OF_OUTPUTS: (("time", "output"), lags, {"units": "rad", "long_name": words}),
+        "output": ("output", names, {"long_name": "first gear of a shaft that drives no gear"}),
+    }

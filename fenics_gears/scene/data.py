@@ -110,7 +110,7 @@ class Scene:
     @property
     def given_load(self) -> float:
         """The load as the scene gives it: torque of the wheel or of the pinion, N mm, or power, N mm/s."""
-        teeth = self.gears.pinion.teeth, self.gears.wheel.teeth
+        teeth = self.gears.teeth
         return self.load.wheel_torque / wheel_torque(self.load.given, 1.0, teeth, self.motion.mesh_frequency)
 
     @cached_property

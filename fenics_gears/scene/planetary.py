@@ -25,16 +25,15 @@ from .data import Scene
 from .gear_schema import Gears
 from .parsing import parsed
 from .planetary_assembly import check_centres, check_clear, set_of
-from .planetary_in_time import INERTIA, check_in_time, inertia_and_damping, wrong_in_time
+from .planetary_in_time import check_in_time, wrong_in_time, wrong_inertia
 from .planetary_rules import OF_A_SET_ALONE, OF_THE_TRAIN, text_of_set, wrong_sections
 from .planetary_run_out import pitches_of, run_outs_of, with_pitches, with_run_outs
 from .planetary_schema import OF_THE_FACE, OF_THE_STEP, PlanetaryText, gears_in, meshes_in
-from .train_loads import TrainLoad, TrainMotion
 from .train_mesh import MeshOfScene, gear_names, layout_of
 from .train_pair import STAGES, MistakesOfStage, Placed, check_together, motion_put_in, pair_of, pair_scene
-from .train_ramp import checked_ramp
-from .train_rules import TrainSections, load_and_motion
+from .train_rules import TrainSections
 from .train_shafts import TrainShafts
+from .train_whole import INERTIA, whole_train
 
 Tree = Mapping[str, Any]
 SCENES_HELD = 32
@@ -44,19 +43,14 @@ def planetary_parts(tree: Tree, source: str, folder: Path) -> tuple[list[MeshOfS
     """The meshes of a parsed set in the frame of its carrier, and its load and motion. Raises MistakesOfStage,
     SceneError and GeometryError for what is wrong."""
     problems = list(wrong_sections(tree, (*OF_THE_TRAIN, *OF_A_SET_ALONE)))
-    found, wrong = load_and_motion(tree)
-    problems += wrong
-    inertia, damping, wrong = inertia_and_damping(tree)
-    problems += wrong
-    load, motion = found
-    ramp, wrong = checked_ramp(tree, load, motion)
-    problems += wrong
-    if problems:
+    whole, wrong = whole_train(tree)
+    problems += [*wrong, *wrong_inertia(tree)]
+    if whole is None or problems:
         raise MistakesOfStage(problems)
     ((stage, content),) = tree[STAGES].items()
     text, problems = text_of_set(stage, content)
     if text is not None and INERTIA in tree:
-        problems += wrong_in_time((STAGES, stage), text, motion)
+        problems += wrong_in_time((STAGES, stage), text, whole.motion)
     if text is None or problems:
         raise MistakesOfStage(problems)
     of_meshes = _of_meshes(stage, content)
@@ -70,21 +64,30 @@ def planetary_parts(tree: Tree, source: str, folder: Path) -> tuple[list[MeshOfS
         check_together(scene, f"{place}.{own.mesh}")
     carrier = _carrier(stage, text, own_set, place, folder)
     _check_in_plane(carrier, scenes[0], place)
-    _check_motion(own_set, load, motion, "friction" if scenes[0].friction is not None else "", place)
+    if scenes[0].friction is not None:
+        _check_sun_drives(own_set, "friction", place)
     if INERTIA in tree:
         check_in_time(scenes[0], place)
-        _check_motion(own_set, load, motion, INERTIA, place)
+        _check_sun_drives(own_set, INERTIA, place)
         carrier = replace(carrier, in_time=True)
     none = (None,) * len(carrier.shafts)
     shafts = TrainShafts(
-        carrier.shafts, none, none, load=inertia, damping=damping, moving=True, carrier=carrier, ramp=ramp
+        carrier.shafts,
+        none,
+        none,
+        load=whole.load_inertia,
+        damping=whole.damping,
+        moving=True,
+        carrier=carrier,
+        ramp=whole.speed_ramp,
     )
+    motion = whole.motion
     meshes = _meshes(carrier, of_meshes, scenes, pairs)
     if own_set.stepped:
         meshes = _clocked(meshes, carrier, text.step_angle or 0.0)
         motion = replace(motion, mesh_cycles=motion.mesh_cycles or min(own_set.cycles))
         motion = replace(motion, recorded_cycles=motion.recorded_cycles or motion.mesh_cycles)
-    return meshes, TrainSections(load, motion, shafts)
+    return meshes, TrainSections(whole.load, motion, shafts)
 
 
 def _of_meshes(stage: str, content: Tree) -> tuple[OfSet, OfSet]:
@@ -189,11 +192,9 @@ def _check_in_plane(carrier: Carrier, scene: Scene, place: str) -> None:
         )
 
 
-def _check_motion(own: PlanetarySet, load: TrainLoad, motion: TrainMotion, named: str, place: str) -> None:
-    """Raise SceneError for a power without a speed, and for a section that is `named` where the ring drives."""
-    if load.power is not None and motion.input_speed is None:
-        raise SceneError(f"{place}: load.power needs a speed. Allowed: with motion.input_speed. {NOTHING_DONE}")
-    if named and not own.sun_drives:
+def _check_sun_drives(own: PlanetarySet, named: str, place: str) -> None:
+    """Raise SceneError for a section that is `named` where the ring drives."""
+    if not own.sun_drives:
         raise SceneError(
             f"{place}: {named} where the {own.second} drives the planets, as the carrier sees it, is not computed yet."
             f" Allowed: without [{named}], or with input and output exchanged, where the sun drives."

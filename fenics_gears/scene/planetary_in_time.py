@@ -5,44 +5,31 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from fenics_gears.dynamics.damping import Damping
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.planetary import CARRIER, RING, SUN, WITH_RING
 from fenics_gears.inputs.problem import NOTHING_DONE, Path, Problem
-from fenics_gears.inputs.section import allowed_in
+from fenics_gears.inputs.tree import table
 from fenics_gears.inputs.written import as_written
 
 from .data import Scene
 from .planetary_schema import PlanetaryText, VibrationText
 from .train_loads import TrainMotion
-from .train_shafts import damping_of_train, load_inertia
-
-INERTIA = "inertia"
+from .train_whole import INERTIA, wrong_with_inertia
 
 
-def inertia_and_damping(tree: Mapping[str, Any]) -> tuple[float | None, Damping | None, list[Problem]]:
-    """Moment of inertia (N mm s^2) of the load and damping of a parsed set, None where it has none; and what is
-    wrong."""
-    problems: list[Problem] = []
-    written = tree.get(INERTIA, {})
-    if not isinstance(written, Mapping):
-        problems.append(Problem((INERTIA,), as_written(written), "is not a section. Allowed: [inertia], also empty."))
-        return None, None, problems
-    for name in written:
+def wrong_inertia(tree: Mapping[str, Any]) -> Iterator[Problem]:
+    """What `[inertia]` of a parsed set has beside its load."""
+    for name, written in (table(tree, INERTIA) or {}).items():
         if name != "load":
             said = (
                 "is not of a set. Its masses are in [stages.NAME.vibration]. Allowed here: [inertia.load], or nothing."
             )
-            problems.append(Problem((INERTIA, name), as_written(written[name]), said))
-    return load_inertia(tree, problems), damping_of_train(tree, problems), problems
+            yield Problem((INERTIA, name), as_written(written), said)
 
 
-def wrong_in_time(path: Path, text: PlanetaryText, motion: TrainMotion | None) -> Iterator[Problem]:
+def wrong_in_time(path: Path, text: PlanetaryText, motion: TrainMotion) -> Iterator[Problem]:
     """What a set lacks that runs with masses, and springs with which it is not computed; `path` of its stage."""
-    for name in ("input_speed", "mesh_cycles") if motion is not None else ():
-        if getattr(motion, name) is None:
-            allowed = allowed_in(TrainMotion, name).description
-            yield Problem(("motion", name), None, f"is missing, which [inertia] needs. Allowed: {allowed}.")
+    yield from wrong_with_inertia(motion)
     place = (*path, "vibration")
     if text.vibration is None:
         said = f"is missing, which [inertia] needs. Add [{'.'.join(place)}], with the masses of all members."

@@ -10,7 +10,7 @@ import numpy as np
 from fenics_gears.effects.flank_errors_rules import PITCH_ROUNDING, not_closed
 from fenics_gears.geometry.planetary import CARRIER, RING, SECOND_SUN, SUN
 from fenics_gears.inputs.problem import NOTHING_DONE, Problem, did_you_mean
-from fenics_gears.inputs.section import names_in, read_by_itself
+from fenics_gears.inputs.section import Section, names_in, read_by_itself
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.inputs.written import as_written
 
@@ -31,7 +31,7 @@ from .planetary_schema import (
     second_in,
 )
 from .train_pair import STAGES
-from .train_rules import ENDS, wrong_title
+from .train_rules import ENDS
 
 # Sections of a train with a set.
 OF_THE_TRAIN = ("title", STAGES, *ENDS, "friction", "accuracy")
@@ -80,7 +80,6 @@ def wrong_sections(tree: Tree, known: Sequence[str] = OF_THE_TRAIN) -> Iterator[
         if isinstance(written, Mapping) and name in written:
             said = "is not computed with a planetary set yet, which has one input and one output. Leave it out."
             yield Problem((section, name), as_written(written[name]), said)
-    yield from wrong_title(tree)
 
 
 def text_of_set(stage: str, content: Tree) -> tuple[PlanetaryText | None, list[Problem]]:
@@ -194,11 +193,7 @@ def _wrong_carrier(path: tuple[str, ...], text: PlanetaryText, count: int) -> It
     own = text.carrier
     if own is None:
         return
-    for name in ("pin_errors", "radial_pin_errors"):
-        errors = getattr(own, name)
-        if errors is not None and len(errors) != count:
-            said = f"has {len(errors)} entries for {count} planets. Allowed: one for each."
-            yield Problem((*path, "carrier", name), "a list", said)
+    yield from _not_one_each((*path, "carrier"), own, ("pin_errors", "radial_pin_errors"), count)
     if own.bearing_stiffness is None:
         return
     said = ""
@@ -224,11 +219,16 @@ def _wrong_run_outs(path: tuple[str, ...], text: PlanetaryText, count: int) -> I
     if own.planets.distance is None:
         said = f"is missing. Allowed: a list of {count} lengths, one for each planet."
         yield Problem((*path, "planets", "distance"), None, said)
-    for name in ("distance", "phase"):
-        listed = getattr(own.planets, name)
+    yield from _not_one_each((*path, "planets"), own.planets, ("distance", "phase"), count)
+
+
+def _not_one_each(path: tuple[str, ...], section: Section, names: Sequence[str], count: int) -> Iterator[Problem]:
+    """Lists of a section that have not one entry for each planet."""
+    for name in names:
+        listed = getattr(section, name)
         if listed is not None and len(listed) != count:
             said = f"has {len(listed)} entries for {count} planets. Allowed: one for each."
-            yield Problem((*path, "planets", name), "a list", said)
+            yield Problem((*path, name), "a list", said)
 
 
 def _wrong_pitches(path: tuple[str, ...], text: PlanetaryText, content: Tree) -> Iterator[Problem]:

@@ -18,6 +18,7 @@ from typing import Any
 
 from fenics_gears.effects import common_period
 from fenics_gears.errors import SceneError
+from fenics_gears.geometry.gear_train import Layout
 from fenics_gears.inputs.problem import NOTHING_DONE, Problem, line_numbers, listed
 
 from .data import Load, Motion
@@ -27,14 +28,13 @@ from .planetary_rules import has_planets
 from .schema import LAST_CYCLES, NOMINAL_FREQUENCY
 from .train_joints import Ends, JoinedText, in_series
 from .train_layout import check_layout
-from .train_loads import TrainLoad
+from .train_loads import LoadOfShaft, TrainLoad
 from .train_mesh import MeshOfScene, gear_names, layout_of, rows_of
 from .train_pair import MistakesOfStage, TrainMistakes
 from .train_rules import TrainSections, checked_train
-from .train_scene import TrainScene, exact_turns, turns_of
+from .train_scene import TrainScene, turns_of
 from .train_shafts import located_shafts
 from .train_stages import meshes_of_stages
-from .train_torques import even_torques, torques_of_shafts
 
 Part = tuple[list[MeshOfScene], TrainSections]
 
@@ -176,7 +176,6 @@ def _completed(
     layout = layout_of(meshes)
     graph = layout.graph
     turns = turns_of(layout)
-    exact = exact_turns(layout)
     speed = motion.input_speed
     if motion.speed is not None:
         speed = motion.speed / turns[sections.shafts.speed_of]
@@ -188,7 +187,7 @@ def _completed(
     given = given and speed is not None
     periods = [int(common_period(mesh.scene)) for mesh in meshes]
     # Meshes of one gear have one frequency to the last digit.
-    lengths = [exact[graph.between[number][0]] * mesh.pair.pinion.teeth / first for number, mesh in enumerate(meshes)]
+    lengths = [layout.turns[shaft] * pair.pinion.teeth / first for (shaft, _), pair in zip(graph.between, layout.pairs)]
     cycles = [motion.mesh_cycles or 1] * len(meshes)
     if motion.mesh_cycles is None and sections.shafts.carrier is None:
         cycles = _whole_periods(meshes, periods, lengths, sections.shafts.moving)
@@ -217,4 +216,41 @@ def _whole_periods(
     for row in rows_of(meshes):
         for number in row:
             found[number] = lcm(*(periods[each] for each in row))
+    return found
+
+
+def torques_of_shafts(
+    load: TrainLoad, loads: Sequence[LoadOfShaft], turns: Sequence[float], driving: float
+) -> list[float]:
+    """Torque (N mm) that resists the rotation of each shaft but the first from outside; `turns` of each in one of the
+    first, which turns by `driving` rad/s. Raises SceneError where nothing is left for the last shaft."""
+    found = [0.0] * len(turns)
+    for each in loads:
+        found[each.shaft] = each.torque
+    if load.output_torque is not None:
+        found[-1] = load.output_torque
+    elif load.input_torque is not None or load.power is not None:
+        torque = load.input_torque if load.input_torque is not None else (load.power or 0.0) / driving
+        others = sum(own * turn for own, turn in zip(found, turns))
+        if others and others >= torque:
+            raise SceneError(
+                f"load: {1e-3 * torque:.6g} N m drive the first shaft, of which load.torques take {1e-3 * others:.6g} N"
+                " m: nothing is left for the last shaft. Allowed: more input_torque or power, or smaller load.torques."
+                f" {NOTHING_DONE}"
+            )
+        found[-1] = (torque - others) / turns[-1]
+    return found
+
+
+def even_torques(layout: Layout, of_shafts: Sequence[float]) -> list[float]:
+    """Torque (N mm) on the wheel of each mesh without losses, where the meshes that drive a shaft share it evenly;
+    `of_shafts`: torque on each shaft from outside."""
+    graph = layout.graph
+    on_shafts = list(of_shafts)
+    found = [0.0] * len(layout.pairs)
+    for shaft in range(graph.last, 0, -1):
+        driving = graph.into(shaft)
+        for mesh in driving:
+            found[mesh] = on_shafts[shaft] / len(driving)
+            on_shafts[graph.between[mesh][0]] += found[mesh] * abs(layout.pairs[mesh].rotation_ratio)
     return found

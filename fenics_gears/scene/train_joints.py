@@ -18,8 +18,8 @@ from .planetary_rules import OF_THE_TRAIN, has_planets, wrong_sections
 from .planetary_schema import second_in
 from .train_loads import TrainLoad, TrainMotion
 from .train_pair import STAGES, MistakesOfStage
-from .train_rules import load_and_motion
 from .train_shaft import TrainShaft
+from .train_whole import whole_train
 
 HOUSING = "housing"
 JOINS = "joins"
@@ -88,12 +88,8 @@ class JoinedText:
     def of(cls, tree: Tree) -> JoinedText:
         """Raises MistakesOfStage."""
         problems = list(wrong_sections(tree, (*OF_THE_TRAIN, JOINS, SHAFTS)))
-        found, wrong = load_and_motion(tree)
+        whole, wrong = whole_train({name: tree[name] for name in OF_THE_TRAIN if name in tree})
         problems += wrong
-        load, motion = found if len(found) == 2 else (None, None)
-        if load is not None and motion is not None and load.power is not None and motion.input_speed is None:
-            said = "needs a speed. Allowed: with motion.input_speed."
-            problems.append(Problem(("load", "power"), as_written(tree["load"]["power"]), said))
         joins, wrong = read(JoinsText, {name: tree[name] for name in (JOINS,) if name in tree}, ())
         problems += wrong
         pairs = () if joins is None or joins.joins is None else joins.joins
@@ -101,12 +97,12 @@ class JoinedText:
         joints += _of_shafts(tree.get(SHAFTS, {}), problems)
         stages, wrong = _held(tree[STAGES], [pair for pair in pairs if HOUSING in pair])
         problems += wrong
-        if problems:
+        if whole is None or problems:
             raise MistakesOfStage(problems)
         motion_of_parts = {name: each for name, each in tree.get("motion", {}).items() if name != "input_speed"}
         shared = {name: tree[name] for name in ("friction", "accuracy") if name in tree}
         shared |= {"load": STANDS_FOR_A_LOAD, "motion": motion_of_parts}
-        return cls(load, motion, tuple(joints), tuple(shared | {STAGES: each} for each in _parts(stages)))
+        return cls(whole.load, whole.motion, tuple(joints), tuple(shared | {STAGES: each} for each in _parts(stages)))
 
 
 def _parts(stages: Tree) -> list[dict[str, Any]]:

@@ -13,7 +13,7 @@ import numpy as np
 
 from fenics_gears.errors import GeometryError, SceneError
 from fenics_gears.geometry.gear_train import Layout, check_apart
-from fenics_gears.geometry.train_graph import TrainGraph, turns_of_shafts
+from fenics_gears.geometry.train_graph import TrainGraph
 from fenics_gears.inputs.problem import NOTHING_DONE
 
 from .data import Scene
@@ -51,17 +51,16 @@ def check_cut_alike(meshes: Sequence[NamedMesh], scenes: Sequence[Scene], graph:
 def _wrong(layout: Layout, names: Sequence[str], gears: Sequence[str]) -> Iterator[str]:
     graph = layout.graph
     for gear in graph.shared:
-        cut = {(layout.pairs[mesh].pinion, layout.pairs[mesh].wheel)[side] for mesh, side in graph.sides[gear]}
+        cut = {layout.pairs[mesh].gears[side] for mesh, side in graph.sides[gear]}
         if len(cut) > 1:
             meshes = " and ".join(names[mesh] for mesh, _ in graph.sides[gear])
             yield (
                 f"gear {gears[gear]} would be cut differently for its meshes {meshes}: give them one module and"
                 " pressure_angle, and the gear its profile_shift, tip_diameter and root_diameter."
             )
-    teeth = [(pair.pinion.teeth, pair.wheel.teeth) for pair in layout.pairs]
-    turns = turns_of_shafts(graph, teeth)
+    turns = layout.turns
     for mesh, (driving, driven) in enumerate(graph.between):
-        by_this = turns[driving] * abs(Fraction(*teeth[mesh]))
+        by_this = turns[driving] * abs(Fraction(*layout.pairs[mesh].teeth))
         if by_this != turns[driven]:
             yield (
                 f"the loop that {names[mesh]} closes locks: by this mesh its wheel {gears[graph.gears[mesh][1]]} would"

@@ -48,6 +48,7 @@ class TrainLoad(Section):
     them on without losses."""
 
     alternatives = (OF_THE_REST,)
+    empty = "is empty. Add output_torque, input_torque or power."
 
     output_torque: float | None = quantity(
         "0 N m to 1e12 N m",

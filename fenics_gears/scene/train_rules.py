@@ -3,19 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from re import fullmatch
 from typing import Any
 
 from fenics_gears.inputs.problem import Problem, did_you_mean
-from fenics_gears.inputs.section import allowed_in, fields_of, names_in, read_by_itself
 from fenics_gears.inputs.written import as_written
 
 from .planetary_schema import PLANETARY
 from .train_loads import TrainLoad, TrainMotion
-from .train_ramp import checked_ramp
 from .train_shafts import TrainShafts, checked_shafts
 from .train_topology import coupled_stages
+from .train_whole import whole_train, wrong_with_inertia
 
 PAIR = "pair"
 ROW = "row"
@@ -53,64 +52,25 @@ def checked_train(tree: Mapping[str, Any]) -> tuple[TrainSections | None, list[P
     if not isinstance(stages, Mapping) or not 0 < len(stages) <= MOST_STAGES:
         allowed = f"Allowed: 1 to {MOST_STAGES} sections [stages.NAME], each with the gears of a stage."
         return None, [*problems, Problem(("stages",), as_written(stages), f"has no stages. {allowed}")]
-    problems += wrong_title(tree)
     coupled = coupled_stages(stages)
     for stage, content in stages.items():
         if not fullmatch(NAMES, stage):
             allowed = "Allowed: letters, digits, _ and -; a folder of results has this name."
             problems.append(Problem(("stages", stage), "", f"is no name of a stage. {allowed}"))
         problems += _of_stage(("stages", stage), content, stage in coupled)
-    found, wrong = load_and_motion(tree)
+    whole, wrong = whole_train(tree)
     problems += wrong
-    load, motion = found
-    shafts, wrong = checked_shafts(tree, not problems, load, motion)
+    shafts, wrong = checked_shafts(tree, None if problems else whole)
     problems += wrong
-    ramp, wrong = checked_ramp(tree, load, motion)
-    problems += wrong
-    if problems:
+    if whole is None or problems:
         return None, problems
-    shafts = replace(shafts, ramp=ramp)
-    sections = TrainSections(load, motion, shafts)
-    problems += _needed(tree, sections)
-    return (None if problems else sections), problems
+    problems += _needed(tree) if whole.inertia is None else wrong_with_inertia(whole.motion)
+    return (None if problems else TrainSections(whole.load, whole.motion, shafts)), problems
 
 
-def wrong_title(tree: Mapping[str, Any]) -> Iterator[Problem]:
-    """A title that is no text."""
-    title = tree.get("title", "")
-    if not isinstance(title, str):
-        yield Problem(("title",), as_written(title), "is no text. Allowed: a text between quotes.")
-
-
-def load_and_motion(tree: Mapping[str, Any]) -> tuple[list[Any], list[Problem]]:
-    """Load and motion of a parsed train, None where they are wrong, and what is wrong with them."""
-    problems: list[Problem] = []
-    found: list[Any] = []
-    for name, section in (("load", TrainLoad), ("motion", TrainMotion)):
-        written = tree.get(name, {})
-        if not isinstance(written, Mapping):
-            problems.append(Problem((name,), as_written(written), f"is not a section with {fields_of(section)}."))
-            found.append(None)
-            continue
-        values, wrong = read_by_itself(section, written, (name,))
-        found.append(values)
-        problems += wrong
-    if isinstance(tree.get("load", {}), Mapping) and not {*names_in(TrainLoad)} & {*tree.get("load", {})}:
-        problems.append(Problem(("load",), None, f"is missing. Add the section [load] with {fields_of(TrainLoad)}."))
-    return found, problems
-
-
-def _needed(tree: Mapping[str, Any], sections: TrainSections) -> Iterator[Problem]:
-    """What a train lacks that its other sections need."""
-    motion = sections.motion
-    if sections.load.power is not None and not motion.given:
-        said = "needs a speed. Allowed: with motion.input_speed."
-        yield Problem(("load", "power"), as_written(tree["load"]["power"]), said)
-    for name in ("input_speed", "mesh_cycles") if "inertia" in tree else ():
-        if getattr(motion, name) is None and not (name == "input_speed" and motion.given):
-            allowed = allowed_in(TrainMotion, name).description
-            yield Problem(("motion", name), None, f"is missing, which [inertia] needs. Allowed: {allowed}.")
-    for stage, content in tree["stages"].items() if "inertia" not in tree else ():
+def _needed(tree: Mapping[str, Any]) -> Iterator[Problem]:
+    """Masses that stages have, and the train has not."""
+    for stage, content in tree["stages"].items():
         if "inertia" in content:
             said = "is of one stage. Add [inertia] for all stages, such as with a density."
             yield Problem(("stages", stage, "inertia"), "", said)

@@ -9,7 +9,6 @@ from math import gcd, lcm, prod
 
 from fenics_gears.effects import common_period
 from fenics_gears.geometry.gear_train import Layout
-from fenics_gears.geometry.train_graph import turns_of_shafts
 
 from .train_joints import Joint
 from .train_mesh import MeshOfScene, OfMeshes, rows_of
@@ -142,7 +141,7 @@ class TrainScene(OfMeshes):
     @property
     def period(self) -> Fraction:
         """Turns of the first shaft after which all meshes and all that differs between their cycles repeats."""
-        turned = exact_turns(self.layout)
+        turned = self.layout.turns
         own = [
             int(common_period(mesh.scene)) / (turned[self.graph.between[number][0]] * mesh.pair.pinion.teeth)
             for number, mesh in enumerate(self.meshes)
@@ -162,8 +161,4 @@ class TrainScene(OfMeshes):
 
 def turns_of(layout: Layout) -> list[float]:
     """Turns of each shaft in one turn of the first, in either sense."""
-    return list(map(float, exact_turns(layout)))
-
-
-def exact_turns(layout: Layout) -> list[Fraction]:
-    return turns_of_shafts(layout.graph, [(pair.pinion.teeth, pair.wheel.teeth) for pair in layout.pairs])
+    return list(map(float, layout.turns))

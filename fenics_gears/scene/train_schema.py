@@ -9,7 +9,7 @@ from typing import Any, get_type_hints
 
 from fenics_gears.contact.eccentricity import Eccentricity
 from fenics_gears.effects import effect_named
-from fenics_gears.inputs.fields import choice, declared, quantities, quantity, text
+from fenics_gears.inputs.fields import choice, declared, quantities, quantity
 from fenics_gears.inputs.section import AllowedTables, Section
 
 from .accuracy import Accuracy
@@ -25,9 +25,8 @@ from .planetary_schema import (
     RunOutsOfSet,
 )
 from .train_joints import JoinsText
-from .train_loads import TrainLoad, TrainMotion
-from .train_ramp import TrainRamp
 from .train_rules import OF_A_STAGE, PAIR, ROW, RUN_OUT, SHARED
+from .train_whole import WholeTrain
 
 ACCURACY = "accuracy"
 ANGLES = "-360 deg to 360 deg"
@@ -67,11 +66,8 @@ class _RunOuts(RunOutsOfSet, Eccentricity):
 
 
 @dataclass(frozen=True, kw_only=True)
-class _AlwaysThere(JoinsText):
-    title: str | None = text(500, meaning="title in summaries and pictures", otherwise="the name of the file")
-    load: TrainLoad
-    motion: TrainMotion = TrainMotion()
-    speed_ramp: TrainRamp | None = None
+class _AlwaysThere(WholeTrain, JoinsText):
+    pass
 
 
 @functools.cache

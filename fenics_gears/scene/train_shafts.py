@@ -11,29 +11,18 @@ from pathlib import Path
 from typing import Any
 
 from fenics_gears.dynamics.damping import Damping
-from fenics_gears.dynamics.inertia import LoadInertia
 from fenics_gears.dynamics.shafts import HousingFile
 from fenics_gears.effects.elastic_shaft_housing import located_housing
 from fenics_gears.geometry.train_graph import TrainGraph
 from fenics_gears.inputs.problem import Problem, did_you_mean
 from fenics_gears.inputs.section import names_in, read, read_by_itself
-from fenics_gears.inputs.tree import GEARS
 from fenics_gears.inputs.written import as_written
 
 from .carrier import Carrier
-from .train_loads import (
-    LoadOfShaft,
-    NamedShafts,
-    TrainLoad,
-    TrainMotion,
-    loaded_gears,
-    loads_of_shafts,
-    misplaced_loads,
-    shaft_with_speed,
-)
-from .train_ramp import TrainRamp
+from .train_loads import LoadOfShaft, NamedShafts, loaded_gears, loads_of_shafts, misplaced_loads, shaft_with_speed
 from .train_shaft import BentShaft, TrainHousing, TrainShaft, wrong_sections
 from .train_topology import NamedMesh, Shafts, declared_gears, graph_of, in_order, named_meshes, shafts_by_order
+from .train_whole import TrainRamp, WholeTrain
 
 # Sections of a train of which each makes its stages move together.
 COUPLING = ("shafts", "inertia", "bearings")
@@ -73,11 +62,9 @@ class TrainShafts:
         return of_carrier or self.housing is not None or any(each.own.housing is not None for each in self.bent)
 
 
-def checked_shafts(
-    tree: Mapping[str, Any], sound: bool, on_shafts: TrainLoad | None = None, motion: TrainMotion | None = None
-) -> tuple[TrainShafts, list[Problem]]:
-    """What couples the stages of a parsed train, and what is wrong with it; `sound`: nothing is wrong with its
-    stages, nor with its load (`on_shafts`) and motion."""
+def checked_shafts(tree: Mapping[str, Any], whole: WholeTrain | None) -> tuple[TrainShafts, list[Problem]]:
+    """What couples the stages of a parsed train, and what is wrong with it; `whole`: None where something is wrong with
+    that, or with its stages."""
     problems: list[Problem] = []
     housing, wrong = _housing(tree)
     problems += wrong
@@ -91,10 +78,10 @@ def checked_shafts(
     problems += _wrong_carries(sections, tree["stages"])
     found = TrainShafts(housing=housing)
     graph = None
-    if sound and not problems:
+    if whole is not None and not problems:
         named = {name: each.carries for name, each in sections.items()}
         shafts = shafts_by_order(tree["stages"], list(named.values()))
-        carried, wrong_shafts = in_order(meshes, shafts, loaded_gears(on_shafts, named))
+        carried, wrong_shafts = in_order(meshes, shafts, loaded_gears(whole.load, named))
         place, by_order = (("shafts",), f" {_by_order(tree['stages'])}") if sections else (("stages",), "")
         problems += [Problem(place, "", f"{each}{by_order}") for each in wrong_shafts]
         if not wrong_shafts:
@@ -103,20 +90,19 @@ def checked_shafts(
             numbered = [BentShaft(name, number_of[own.carries[0]], own) for name, own in sections.items()]
             found = _of_sections(numbered, carried, housing)
             problems += _misplaced(tree, meshes, numbered, found)
-    load = load_inertia(tree, problems)
-    if graph is not None and on_shafts is not None and motion is not None:
+    if whole is not None and graph is not None:
         by_name = NamedShafts(carried, named)
-        loads, wrong = loads_of_shafts(on_shafts, tree["load"], by_name, graph)
-        speed_of, wrong_speed = shaft_with_speed(motion, by_name)
+        loads, wrong = loads_of_shafts(whole.load, tree["load"], by_name, graph)
+        speed_of, wrong_speed = shaft_with_speed(whole.motion, by_name)
         soft = {number for number, each in enumerate(found.torsion) if each is not None}
         soft |= {each.number for each in found.bent}
         problems += [*wrong, *wrong_speed, *misplaced_loads(loads, tree, by_name, graph, soft)]
         found = replace(found, loads=loads, speed_of=speed_of)
-    damping = damping_of_train(tree, problems)
+        found = replace(found, load=whole.load_inertia, damping=whole.damping, ramp=whole.speed_ramp)
     moving = any(name in each for each in (tree, *_tables(tree["stages"])) for name in COUPLING)
     # A torque between meshes is one of the equations of motion of all.
     moving |= graph is not None and not (graph.is_chain and {each.shaft for each in found.loads} <= {*graph.outputs})
-    return replace(found, load=load, damping=damping, moving=moving), problems
+    return replace(found, moving=moving), problems
 
 
 def _of_sections(numbered: Sequence[BentShaft], carried: Shafts, housing: HousingFile | None) -> TrainShafts:
@@ -230,36 +216,3 @@ def _wrong_twist(shaft: BentShaft, graph: TrainGraph) -> Iterator[Problem]:
     if shaft.own.clocking is not None and (len(gears) != 2 or looped != gears):
         said = "is not of a shaft with two gears in a loop of meshes, where it moves load. Leave it out."
         yield Problem(("shafts", shaft.name, "clocking"), f'"{shaft.own.clocking:g} rad"', said)
-
-
-def load_inertia(tree: Mapping[str, Any], problems: list[Problem]) -> float | None:
-    """Moment of inertia (N mm s^2) of the load, None where there is none; what is wrong with it is added."""
-    inertia = tree.get("inertia")
-    if not isinstance(inertia, Mapping) or "load" not in inertia:
-        return None
-    place = ("inertia", "load")
-    if not isinstance(inertia["load"], Mapping):
-        problems.append(Problem(place, as_written(inertia["load"]), "is not a section with moment_of_inertia."))
-        return None
-    load, wrong = read_by_itself(LoadInertia, inertia["load"], place)
-    problems += wrong
-    return None if load is None else load.moment_of_inertia
-
-
-def damping_of_train(tree: Mapping[str, Any], problems: list[Problem]) -> Damping | None:
-    """The damping of all stages, None where there is none; what is wrong with it is added."""
-    written = tree.get("damping")
-    if written is None:
-        return None
-    if not isinstance(written, Mapping):
-        problems.append(Problem(("damping",), as_written(written), "is not a section, such as one with ratio = 0.05."))
-        return None
-    for gear in GEARS:
-        if gear in written:
-            said = "is of a pair. Allowed: one damping of the whole train."
-            problems.append(Problem(("damping", gear), "", said))
-    damping, wrong = read_by_itself(Damping, written, ("damping",))
-    problems += wrong
-    if damping is not None and "inertia" not in tree:
-        problems.append(Problem(("damping",), "", "needs the section [inertia], which is missing. Add it."))
-    return damping

@@ -126,7 +126,7 @@ def _length_of(share: float, whole: float) -> float:
 
 def _motion(scene: Scene) -> dict[str, Any]:
     motion = scene.motion
-    period = math.lcm(scene.gears.pinion.teeth, scene.gears.wheel.teeth)
+    period = math.lcm(*scene.gears.teeth)
     tree: dict[str, Any] = {}
     if motion.speed_given:
         tree["mesh_frequency"] = field_of(schema.MotionText, "mesh_frequency", motion.mesh_frequency)

@@ -5,6 +5,7 @@ import xarray as xr
 
 from fenics_gears.contact.window import coast_roll_angles, contact_roll_angles
 from fenics_gears.geometry.pair import GearPair
+from fenics_gears.inputs.tree import GEARS
 from fenics_gears.results.face_ends import slice_ends
 from fenics_gears.results.mesh_curves import read_off
 from fenics_gears.results.pairs import carrying_side
@@ -19,7 +20,6 @@ ROWS = 200
 # A peak is an edge's and not the flank's from this many times the pressure of a neighbouring step.
 EDGE_PEAK = 2.0
 NOTE = "Averaged over five contact nodes; between steps the peak is interpolated along the flank."
-GEARS = ("pinion", "wheel")
 
 
 def contact_patterns(run: ShownRun) -> list[Chart]:

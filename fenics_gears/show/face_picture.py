@@ -10,6 +10,7 @@ from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
 
 from fenics_gears.errors import ComputationError
+from fenics_gears.inputs.tree import GEARS
 from fenics_gears.results.pairs import contact_times
 from fenics_gears.simulation.run_stresses import GearInSpace, GearsInMesh
 from fenics_gears.system.virtual_display import ensure_display
@@ -37,7 +38,6 @@ CAPTION = (
 )
 FLANK = "#F7F7F5"
 PRESSURES = LinearSegmentedColormap.from_list("pressure", list(PRESSURE_COLOURS))
-NAMES = ("pinion", "wheel")
 
 
 @dataclass(frozen=True)
@@ -106,7 +106,7 @@ def sights(mesh: GearsInMesh) -> tuple[Sight, Sight, Sight]:
 def root_tension(mesh: GearsInMesh) -> Chart:
     """Largest tension in the roots of either gear's loaded teeth at each place of its face."""
     curves = []
-    for name, gear, colour in zip(NAMES, mesh.gears, PALETTE):
+    for name, gear, colour in zip(GEARS, mesh.gears, PALETTE):
         tension = gear.principal[..., gear.in_root].max(axis=(0, 2))
         curves.append(Curve(name, gear.points[0, :, 0, 2], tension, colour, mode=MARKED_LINES))
     return Chart(
@@ -186,7 +186,7 @@ def _add_gear(plotter, gear: GearInSpace, scale: float, limit: float, tiles: Pre
 
 def _words(figure: Figure, mesh: GearsInMesh, dataset: xr.Dataset, scale: float) -> None:
     force = contact_times(dataset)["coast_normal_force" if mesh.coast else "normal_force"].values
-    roots = [f"{name} {_largest_tension(gear)}" for name, gear in zip(NAMES, mesh.gears)]
+    roots = [f"{name} {_largest_tension(gear)}" for name, gear in zip(GEARS, mesh.gears)]
     words = (
         f"Displacements × {scale:g}. Mesh force {float(force[stored_place(mesh, dataset)]):.0f} N. Largest tension in"
         f" the roots: {', '.join(roots)}."

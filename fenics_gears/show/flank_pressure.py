@@ -61,7 +61,7 @@ def pressed_tiles(mesh: GearsInMesh, dataset: xr.Dataset, gear: int, scale: floa
 
 def _placed(pair: GearPair, gear: int, coast: bool, rolls: np.ndarray, touching: np.ndarray) -> np.ndarray:
     """Points (n, 2) of a gear's flank at roll angles (n,), a little off it, where the flank touches at others (n,)."""
-    x, height = flank_point((pair.pinion, pair.wheel)[gear].base_radius, rolls, touching)
+    x, height = flank_point(pair.gears[gear].base_radius, rolls, touching)
     x = x + STAND_OFF * pair.pinion.module
     bases = pair.pinion.base_radius + pair.wheel.base_radius
     if gear:

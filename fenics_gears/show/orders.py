@@ -41,7 +41,7 @@ def order_spectrum(run: ShownRun) -> Chart | None:
     # Where cycles differ, all settled ones are analysed; where they are alike, only those that are shown.
     run = run.settled if 1 < common_period(run.scene) < inf else replace(run, dataset=shown(run.dataset))
     values, unit = error_values(run)
-    teeth = run.scene.gears.pinion.teeth, run.scene.gears.wheel.teeth
+    teeth = run.scene.gears.teeth
     lines = order_lines(values, run.cycles, teeth)
     if lines is None:
         return None

@@ -9,6 +9,7 @@ from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.in_mesh import common_depth, extent_of, standing, upright
 from fenics_gears.geometry.outline import rotation, tip_corner, tooth_outline
 from fenics_gears.geometry.pair import GearPair
+from fenics_gears.inputs.tree import GEARS
 
 from .chart import MARKERS, Chart, Curve
 from .panels import DARK, GREY, PALETTE
@@ -45,9 +46,9 @@ def gear_outline(pair: GearPair, gear: int, phase: float, coast: bool = False) -
     """Outline (n, 2), mm, of a gear at a phase of the mesh cycle, tooth after tooth, closed; line of centres upright.
     coast: with the coast flanks where the drive flanks are at that phase."""
     centre, angles = standing(pair, gear, phase)
-    tooth = tooth_points((pair.pinion, pair.wheel)[gear])
+    tooth = tooth_points(pair.gears[gear])
     # A tooth's outline runs from its drive side, which lies ahead, to its coast side.
-    sign = (pair.pinion, pair.wheel)[gear].sign
+    sign = pair.gears[gear].sign
     points = np.vstack([centre + tooth @ rotation(angle).T for angle in sign * np.sort(sign * angles)[::-1]])
     return upright(pair, np.vstack([points, points[:1]]), coast)
 
@@ -73,7 +74,7 @@ def _arc(radius: float, start: float, end: float, points: int = 4) -> np.ndarray
 
 
 def _curves(pair: GearPair, teeth: list[np.ndarray], coast: bool, labels: bool) -> list[Curve]:
-    gears = (("pinion", pair.pinion), ("wheel", pair.wheel))
+    gears = tuple(zip(GEARS, pair.gears))
     curves = []
 
     def line(name: str, points: np.ndarray, colour: str, width: float, **style) -> None:

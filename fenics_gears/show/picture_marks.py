@@ -8,6 +8,7 @@ from matplotlib.patches import Arc, FancyArrowPatch, Rectangle
 from matplotlib.patheffects import withStroke
 
 from fenics_gears.geometry.in_mesh import upright
+from fenics_gears.inputs.tree import GEARS
 from fenics_gears.simulation.run_stresses import GearsInMesh
 
 from .panels import DARK
@@ -48,7 +49,7 @@ def name_gears(axes: Axes, mesh: GearsInMesh, driving: int) -> None:
     bottom, top = axes.get_ylim()
     height = axes.get_position().height * axes.figure.get_figheight() * 72.0
     point = (top - bottom) / height
-    for side, name in zip(mesh.pair.sides, ("pinion", "wheel")):
+    for side, name in zip(mesh.pair.sides, GEARS):
         gear = side.gear
         turns = side.turning
         name += "\ndrives" if side.number == driving else ""

@@ -37,7 +37,7 @@ def shown_points(mesh: GearsInMesh, gear: int, scale: float) -> np.ndarray:
     touch are drawn touching at any scale.
     """
     body = mesh.gears[gear]
-    radius = (mesh.pair.pinion, mesh.pair.wheel)[gear].base_radius
+    radius = mesh.pair.gears[gear].base_radius
     points = in_plane(body.points)
     arm = points - body.centre
     arc = -0.5 * mesh.approach if mesh.coast else 0.5 * mesh.approach
@@ -172,7 +172,7 @@ def in_tooth_order(mesh: GearsInMesh, gear: int) -> GearInSpace:
 
     The sectors of a `GearInSpace` begin anew in each mesh cycle, with the tooth that last reached the start of contact.
     """
-    teeth = (mesh.pair.pinion, mesh.pair.wheel)[gear].tooth_count
+    teeth = mesh.pair.gears[gear].tooth_count
     cycles = int(np.floor(mesh.mesh_phase + ROUNDING))
     # Sectors are counted counterclockwise; so turns the pinion.
     sectors = (cycles - np.arange(teeth)) * (1 if gear == 0 else -1) % teeth

@@ -15,8 +15,7 @@ from fenics_gears.geometry.pair import GearPair
 from fenics_gears.model.train import train_model_of
 from fenics_gears.results.layout import MICRORADIANS, OF_OUTPUTS
 from fenics_gears.results.mesh_of_train import carried_train, mesh_run
-from fenics_gears.results.overall_orders import overall_orders
-from fenics_gears.results.ramp_orders import ramp_orders
+from fenics_gears.results.overall_orders import overall_orders, ramp_orders
 from fenics_gears.scene.train import TrainScene
 from fenics_gears.scene.train_layout import centres
 from fenics_gears.scene.train_mesh import gear_names
@@ -87,7 +86,7 @@ def drawing_of(scene: TrainScene) -> Chart:
         # A gear of several meshes is drawn in its first one.
         mesh, side = sides[0]
         pair = scene.meshes[mesh].pair
-        gear = (pair.pinion, pair.wheel)[side]
+        gear = pair.gears[side]
         stage, _, own = name.rpartition(".")
         words = f"{stage}: {f'gear {own}' if own.isdigit() else own}, {gear.teeth} teeth"
         curves += _circles(at[graph.shafts[number]], gear, pair, words, _colour(number))

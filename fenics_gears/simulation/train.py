@@ -6,8 +6,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from functools import partial
-from types import ModuleType
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -35,11 +33,10 @@ from fenics_gears.system.progress import Progress
 
 from .bodies import body_key, gear_bodies, gear_body
 from .elastic_route import cycle_of, gaps_of, mesh_of
+from .row_over_face import SharedBody, joined
+from .row_over_face import shared_body as body_over_face
 from .simulate import MARCH, memory_for_operators
 from .warm_up import compile_kernels, compile_loops
-
-if TYPE_CHECKING:
-    from .row_over_face import SharedBody
 
 KeptRow = Callable[[RowModel, Callable[[], RowCycle]], RowCycle]
 
@@ -93,7 +90,7 @@ def row_cycle(row: RowModel, progress: Progress, cache: Cache) -> RowCycle:
         mesh = _mesh(row.models[number], cycle, of_mesh, row.drivetrain.modes)
         meshes.append(replace(mesh, friction=row.frictions[number]))
     if row.over_face:
-        return RowCycle(meshes, _over_face().joined(row, bodies, [mesh.cycle for mesh in meshes]))
+        return RowCycle(meshes, joined(row, bodies, [mesh.cycle for mesh in meshes]))
     coupled = [
         GearInPlane(
             row.gear(gear).tooth_count, shared, bodies[gear].section, row.models[shared.meshes[0]].pair.face_width
@@ -108,13 +105,6 @@ def _mesh(model: Model, cycle: Cycle, placed: tuple[np.ndarray, np.ndarray], mod
     """A mesh with the gaps of its model."""
     coordinates, offset = placed
     return MeshOfRow(cycle, coordinates, None, modes).with_gaps_of(offset, partial(gaps_of, model))
-
-
-def _over_face() -> ModuleType:
-    """Rows over the face; runs in the plane load none of it."""
-    from . import row_over_face
-
-    return row_over_face
 
 
 def _bodies(row: RowModel, progress: Progress, cache: Cache) -> Iterator[Body | SharedBody]:
@@ -138,7 +128,7 @@ def _bodies(row: RowModel, progress: Progress, cache: Cache) -> Iterator[Body | 
 def shared_body(row: RowModel, gear: int, cache: Cache) -> Body | SharedBody:
     """A gear of several meshes, from the cache or condensed."""
     if row.over_face:
-        return _over_face().shared_body(row, gear, cache)
+        return body_over_face(row, gear, cache)
     return Body.of(flank_compliance(*row.key_of_shared(gear), cache))
 
 

@@ -29,10 +29,11 @@ from fenics_gears.contact.operator import ContactOperator, Position
 from fenics_gears.contact.rigid_step import solve_rigid
 from fenics_gears.contact.step_solver import NEWTON, solve_step
 from fenics_gears.contact.tooth_pair import DRIVE, PairNodes, Place, nodal_gap
+from fenics_gears.contact.uniqueness import between_closed
 from fenics_gears.contact.window import ContactGrid, node_offsets
 from fenics_gears.dynamics.compiled_march import Course, Motion, solve_steps
-from fenics_gears.dynamics.contact_work import contact_work
 from fenics_gears.dynamics.drivetrain import Drivetrain
+from fenics_gears.dynamics.energy_account import contact_work
 from fenics_gears.dynamics.steps import Steps, drive_flanks_touch, smallest_openings
 from fenics_gears.dynamics.time_integration import Scheme
 from fenics_gears.results.contact_variables import energy_of_teeth
@@ -116,8 +117,6 @@ def _evaluate(steps: Steps, tangential: bool) -> None:
     for evaluated in (contact_work, stiffness_curves, energy_of_teeth, smallest_openings, drive_flanks_touch):
         evaluated(steps)
     if tangential:
-        from fenics_gears.contact.uniqueness import between_closed
-
         between_closed(np.zeros((1, 1)), np.eye(2), np.array([0]), np.ones(1))
 
 

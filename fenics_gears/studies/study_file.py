@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from fenics_gears.errors import SceneError
-from fenics_gears.inputs.problem import Problem, counted, did_you_mean, line_numbers
+from fenics_gears.inputs.problem import Mistakes, did_you_mean, line_numbers
 from fenics_gears.inputs.tree import value_at
 from fenics_gears.inputs.written import as_written
 from fenics_gears.results.planetary import OF_SETS
@@ -36,24 +36,6 @@ MOST_CASES = 100_000
 MOST_CASES_AT_ONCE = 100
 # Names of the combined dataset's own variables.
 TAKEN = {"case", "failed", "failure", "meaningless", "mesh_phase", "gear", "mesh", "quantile", SAMPLE}
-
-
-class Mistakes:
-    """The mistakes of a study file so far, each once."""
-
-    def __init__(self, source: str, lines: Mapping[tuple[str, ...], int]):
-        self._source = source
-        self._lines = lines
-        self._said: dict[str, None] = {}
-
-    def add(self, path: tuple[str, ...], written: str | None, message: str) -> None:
-        """Note a mistake at a path of the study file; ``written`` as for `Problem`."""
-        problem = Problem(path, written, message)
-        self._said.setdefault(problem.describe(self._source, self._lines))
-
-    def check(self) -> None:
-        if self._said:
-            raise SceneError(counted(list(self._said), len(self._said), self._source))
 
 
 def load_study(path: str | Path, progress: Progress | None = None) -> Study:

@@ -6,8 +6,9 @@ from tests.helical import wide_pair
 from tests.over_face import MORE
 
 from fenics_gears import simulate
-from fenics_gears.dynamics import batch
-from fenics_gears.dynamics.batch import Batch, Block
+from fenics_gears.dynamics import block
+from fenics_gears.dynamics.batch import Batch
+from fenics_gears.dynamics.block import Block
 
 
 @pytest.mark.parametrize("plain", [False, True], ids=["compiled", "step by step"])
@@ -31,7 +32,7 @@ def test_results_are_those_of_one_thread(monkeypatch, friction, plain):
     scene = wide_pair((f"[friction]\ncoefficient = {friction}\n" if friction else "") + MORE)
     results = []
     for threads in (1, 2):
-        monkeypatch.setattr(batch, "threads", lambda threads=threads: threads)
+        monkeypatch.setattr(block, "threads", lambda threads=threads: threads)
         results.append(simulate(scene))
         # By itself a step with friction follows from the one before it.
         assert any(later) == (threads == 2 and not (plain and friction))

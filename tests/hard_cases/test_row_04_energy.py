@@ -8,7 +8,7 @@ from tests.coarse import COARSE
 from tests.frozen_gears import frozen_marcher, pushed
 
 from fenics_gears import gear_pair, simulate
-from fenics_gears.dynamics.contact_work import contact_work
+from fenics_gears.dynamics.energy_account import contact_work
 from fenics_gears.dynamics.steps import Record, Steps
 from fenics_gears.dynamics.time_integration import State
 from fenics_gears.dynamics.torque_ripple import Harmonic, TorqueRipple

@@ -6,7 +6,7 @@ import xarray as xr
 from tests.simulation.test_train_motion import INERTIA
 from tests.trains import two_stages
 
-from fenics_gears.results.ramp_orders import ramp_orders
+from fenics_gears.results.overall_orders import ramp_orders
 
 RAMP = '[motion]\ninput_speed = "600 rpm"\nmesh_cycles = 8\n[speed_ramp]\nend_speed = "1200 rpm"\n'
 

@@ -9,7 +9,7 @@ from tests.coarse import coarse_scene, cycle_of, frictionless, quasi_static
 
 from fenics_gears import model_of, results, simulate
 from fenics_gears.dynamics import march as march_module
-from fenics_gears.dynamics.contact_work import contact_work
+from fenics_gears.dynamics.energy_account import contact_work
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.dynamics.steps import Steps
 from fenics_gears.effects.coast_flanks import CoastFlanks

@@ -47,8 +47,8 @@ SHAFT = '[shafts.one]\ncarries = ["{}"]\ntorsional_stiffness = "1e8 N mm/rad"'
         (f'[stages.one]\nkind = "planets"\n{LOAD}', 'is no kind of stage. Allowed: "pair", "row" or "planetary"'),
         (f'[stages.one]\nkind = "row"\ngears = [{{ teeth = 20 }}]\n{LOAD}', "has not the gears of a row"),
         (f"[stages]\n{LOAD}", "has no stages"),
-        (f"load = 5\n{TWO}", "load = 5.* is not a section with its fields"),
-        (f"title = 3\n{TWO}{LOAD}", "is no text"),
+        (f"load = 5\n{TWO}", "load = 5.* is not a section. Write a line .load.,"),
+        (f"title = 3\n{TWO}{LOAD}", "title = 3\n    is not a text"),
         (stage('".."', 2.0, (20, 30)) + LOAD, "is no name of a stage"),
         (stage("one", 2.0, (20, 30), 'direction = "3 mm"') + LOAD, "is no angle"),
         (

@@ -14,7 +14,7 @@ from fenics_gears import model_of, simulate_train, train_from_text
 from fenics_gears.contact.errors import ContactNotConverged
 from fenics_gears.contact.mesh import elastic_mesh
 from fenics_gears.contact.mesh_cycle import Cycle
-from fenics_gears.dynamics.batch import Block
+from fenics_gears.dynamics.block import Block
 from fenics_gears.effects.coast_flanks import CoastFlanks
 from fenics_gears.effects.tip_relief import TipRelief
 from fenics_gears.errors import ComputationError, MemoryEnded

@@ -14,12 +14,14 @@ from fenics_gears.effects import common_period
 from fenics_gears.errors import ComputationError
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.model.description import derived_rows
-from fenics_gears.model.loop_rows import loop_rows
 from fenics_gears.model.model import Model
 from fenics_gears.model.motion_rows import Rows, period_rows
+from fenics_gears.model.planetary_frequencies import set_frequency_rows
+from fenics_gears.model.planetary_rows import member_rows, planet_rows, set_rows
 from fenics_gears.model.train import TrainModel, train_model_of
 from fenics_gears.model.train_cost import row_cost, row_too_large, train_cost
-from fenics_gears.model.train_motion_rows import frequencies_of_train, motion_rows
+from fenics_gears.model.train_motion_rows import frequencies_of_train, loop_rows, motion_rows
+from fenics_gears.results.train_rows import train_rows
 from fenics_gears.scene.train import TrainScene
 from fenics_gears.scene.train_mesh import MeshOfScene
 from fenics_gears.show import TRAIN_PICTURE_FILES
@@ -40,7 +42,6 @@ def run_train(scene: TrainScene, options: argparse.Namespace) -> int:
     directory = options.output or Path("results") / scene.name
     check_writable(directory, RUN_FILE, *TRAIN_PICTURE_FILES)
     model = train_model_of(scene)
-    from fenics_gears.results.train_rows import train_rows
     from fenics_gears.runs.train import simulate_train
 
     file = directory / RUN_FILE
@@ -115,14 +116,10 @@ def _print_part(model: TrainModel, name: str) -> None:
     """Speeds, torques and assembly of a train, or of a part of one with this `name` before its headings."""
     scene = model.scene
     if (carrier := scene.shafts.carrier) is not None:
-        from fenics_gears.model.planetary_rows import member_rows, planet_rows, set_rows
-
         print_rows(f"{name}Planetary set", set_rows(model.rows[0]))
         print_rows(f"{name}Members, without losses", member_rows(carrier))
         print_rows(f"{name}Planets", planet_rows(model.rows[0]))
         if carrier.vibration is not None:
-            from fenics_gears.model.planetary_frequencies import set_frequency_rows
-
             print_rows(f"{name}Natural frequencies of lumped members", set_frequency_rows(model.rows[0]))
         return
     print_rows(f"{name}Train", _train_rows(model))

@@ -49,7 +49,7 @@ class LoadMap:
 
     def wheel_torque(self, load: str, mesh_frequency: float | None = None) -> float:
         """Torque (N mm) on the wheel at a load, a power at a mesh frequency (Hz), the scene's unless given."""
-        teeth = self.scene.gears.pinion.teeth, self.scene.gears.wheel.teeth
+        teeth = self.scene.gears.teeth
         torque = wheel_torque(
             self.scene.load.given, units.quantity(load)[0], teeth, mesh_frequency or self.scene.motion.mesh_frequency
         )

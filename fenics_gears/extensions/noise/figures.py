@@ -9,6 +9,7 @@ import numpy as np
 import xarray as xr
 
 from fenics_gears import MICROMETRE, ComputationError, carried_scene, of_settled, spectrum
+from fenics_gears.scene_text import GEARS
 
 from .sidebands import sidebands
 
@@ -17,7 +18,6 @@ SIGNALS = {
     "mesh_force": ("N", "mesh force"),
 }
 HARMONICS = np.arange(1, 11)
-GEARS = ("pinion", "wheel")
 
 
 def noise_figures(result: xr.Dataset, window: str | None = None) -> xr.Dataset:
@@ -47,7 +47,7 @@ def noise_figures(result: xr.Dataset, window: str | None = None) -> xr.Dataset:
         if ramp:
             figures = figures.assign(_followed(name, values, run, used)).set_coords("mesh_frequency")
         else:
-            figures = figures.assign(_steady(name, values, cycles, (gears.pinion.teeth, gears.wheel.teeth), window))
+            figures = figures.assign(_steady(name, values, cycles, gears.teeth, window))
     return figures
 
 

@@ -52,7 +52,7 @@ def single_pair_factors(operation: Operation) -> tuple[float, float]:
 
     # Where contact ends on either gear: at the tip, at its chamfer, or where the mate is cut away.
     ends = pair.pinion_roll_angle(pair.path_end), pair.wheel_roll_angle(pair.path_start)
-    pitches = pair.pinion.angular_pitch, pair.wheel.angular_pitch
+    pitches = [gear.angular_pitch for gear in pair.gears]
 
     def factor(own: int, other: int) -> float:
         before = ends[own] - pitches[own]

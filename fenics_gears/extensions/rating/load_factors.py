@@ -36,7 +36,7 @@ def load_factors(operation: Operation) -> LoadFactors:
     deviations = _deviations(operation)
     dynamic = _dynamic(operation, deviations)
     face = _face(operation, dynamic)
-    height = max(gear.tip_radius - gear.root_radius for gear in (operation.pair.pinion, operation.pair.wheel))
+    height = max(gear.tip_radius - gear.root_radius for gear in operation.pair.gears)
     part = min(height / operation.face_width, 1.0 / 3.0)
     transverse = _transverse(operation, deviations, dynamic * face)
     total = operation.pair.total_contact_ratio
@@ -47,7 +47,7 @@ def load_factors(operation: Operation) -> LoadFactors:
 
 
 def _deviations(operation: Operation) -> _Deviations:
-    gears = (operation.pair.pinion, operation.pair.wheel)
+    gears = operation.pair.gears
     grade = operation.finish.tolerance_class
     tolerances = [flank_tolerance(2.0 * gear.reference_radius, gear.normal_module, grade) for gear in gears]
     base_pitch = 1e3 * max(each.single_pitch for each in tolerances) * cos(gears[0].pressure_angle)
@@ -130,7 +130,7 @@ def mesh_misalignment(operation: Operation) -> float:
     factor 1.33. Else, from manufacture alone, helix slopes of both gears within their class."""
     if operation.misalignment is not None:
         return abs(operation.misalignment)
-    gears = operation.pair.pinion, operation.pair.wheel
+    gears = operation.pair.gears
     face = operation.face_width
     grade = operation.finish.tolerance_class
     return 1e3 * hypot(*(helix_tolerance(2.0 * gear.reference_radius, face, grade).slope for gear in gears))

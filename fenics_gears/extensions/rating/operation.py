@@ -80,9 +80,8 @@ class Operation:
     @property
     def reduced_radius(self) -> float:
         """Reduced radius of curvature (mm) at the pitch point, in the transverse section."""
-        gears = (self.pair.pinion, self.pair.wheel)
         angle = self.pair.operating_pressure_angle
-        first, second = (gear.base_radius * tan(angle) for gear in gears)
+        first, second = (gear.base_radius * tan(angle) for gear in self.pair.gears)
         return first * second / (first + second)
 
 
@@ -98,6 +97,5 @@ def solid_reduced_mass(pair: GearPair) -> float:
         mean = gear.tip_radius + gear.root_radius
         return 0.125 * pi * DENSITY * mean**4 / (4.0 * gear.base_radius**2)
 
-    first = mass(pair.pinion)
-    second = mass(pair.wheel)
+    first, second = map(mass, pair.gears)
     return first * second / (first + second)

@@ -20,6 +20,7 @@ from fenics_gears import (
     model_of,
     of_settled,
 )
+from fenics_gears.scene_text import GEARS
 
 from .finish import Finish
 from .flank import flank_stress
@@ -71,11 +72,11 @@ def rate(result: xr.Dataset, scene: Scene, finish: Finish, idlers: Collection[st
     transverse = numbers.get("transverse_load_factor", nan)
     rows.append(RatingRow("K_Halpha, transverse load factor", "1", factors.transverse, transverse))
     pressure = numbers.get("peak_contact_pressure", nan)
-    for name, stress in zip(("pinion", "wheel"), flank.stress):
+    for name, stress in zip(GEARS, flank.stress):
         rows.append(RatingRow(f"sigma_H, contact stress of the {name}", "MPa", stress, pressure))
         safeties = flank.limit / stress, flank.limit / pressure
         rows.append(RatingRow(f"S_H, safety against pitting of the {name}", "1", *safeties))
-    for name, root in zip(("pinion", "wheel"), roots):
+    for name, root in zip(GEARS, roots):
         computed = numbers.get(f"largest_root_stress_{name}", nan)
         rows.append(RatingRow(f"sigma_F, root stress of the {name}", "MPa", root.stress, computed))
         limit = root.limit * (REVERSED if name in idlers else 1.0)
@@ -188,7 +189,7 @@ def _reduced_mass(scene: Scene, pair: GearPair) -> float:
     """kg/mm: of the scene's moments of inertia, or of solid steel gears."""
     if scene.inertia is None:
         return solid_reduced_mass(pair)
-    gears = zip(lumped_gears(scene, pair).values(), (pair.pinion, pair.wheel))
+    gears = zip(lumped_gears(scene, pair).values(), pair.gears)
     first, second = (KILOGRAM * each.moment_of_inertia / gear.base_radius**2 / pair.face_width for each, gear in gears)
     return first * second / (first + second)
 

@@ -11,6 +11,7 @@ import xarray as xr
 
 from fenics_gears import OVERALL, Scene, SceneError, carried_scene, carried_train, gear_pair, mesh_run
 from fenics_gears.command_line import file_to_write, loaded_run, number_of_option, run_file, write_whole
+from fenics_gears.scene_text import GEARS
 from fenics_gears.shown import TrainScene, set_runs
 
 from . import rating
@@ -57,7 +58,7 @@ def _meshes(result: xr.Dataset) -> list[RatedMesh]:
     found = []
     for number, sharing in _rated(result, train):
         mesh = train.meshes[number]
-        idlers = tuple(name for name, gear in zip(("pinion", "wheel"), mesh.gears) if gear in driving & driven)
+        idlers = tuple(name for name, gear in zip(GEARS, mesh.gears) if gear in driving & driven)
         own = mesh_run(result, train, number)
         found.append(RatedMesh(mesh.name, own, mesh.scene, idlers, number in train.alone, sharing))
     return found

@@ -3,9 +3,9 @@
 from math import degrees
 
 from fenics_gears.pages import Beside, Facts, PageSection, Table, sentence
+from fenics_gears.scene_text import GEARS
 from fenics_gears.shown import NO_SCENE, GearPairData, ShownRun, characteristics, drawings
 
-GEARS = ("pinion", "wheel")
 # How labels of what a caliper reads end.
 MEASURED = ("(W_k)", "(M_d)")
 

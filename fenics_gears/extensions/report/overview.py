@@ -88,7 +88,7 @@ def _conditions(run: ShownRun) -> Iterator[Tile]:
     gears = run.scene.gears
     motion = run.scene.motion
     ramp = run.scene.speed_ramp
-    teeth = gears.pinion.teeth, gears.wheel.teeth
+    teeth = gears.teeth
     torque = run.scene.load.wheel_torque * factor("N mm", "N m")
     power = f", {load_in_words(run.scene)}" if run.scene.load.given == "power" else ""
     note = f"{digits(torque * teeth[0] / teeth[1])} N m on the pinion{power}"

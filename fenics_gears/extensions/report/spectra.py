@@ -89,7 +89,7 @@ def _spectrum(run: ShownRun, values: np.ndarray) -> Spectrum:
     taken, so that orders of either gear's rotation are separate; else whole mesh cycles."""
     scene = run.scene
     if scene is not None and scene.speed_ramp is None:
-        teeth = scene.gears.pinion.teeth, scene.gears.wheel.teeth
+        teeth = scene.gears.teeth
         amplitudes = spectrum.order_lines(values, run.cycles, teeth)
         if amplitudes is not None and amplitudes.exact:
             periods = int(run.cycles * (1 + 1e-9)) // lcm(*teeth)

@@ -12,8 +12,6 @@ from .stage import Stage
 from .train import Train
 from .values import Value, ValueProblem, agreed, computed, numbered, together
 
-ROLES = ("pinion", "wheel")
-
 
 class Branches:
     """The stages of such a train, in the order of the power."""

@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 from math import degrees, isclose, pi, remainder
 
+from fenics_gears.scene_text import GEARS
+
 from .attributes import Reading
 from .circles import without_derived_tip
 from .flanks import note_what_is_left_out, relief_sections
@@ -123,7 +125,7 @@ def _gears(reading: Reading, unit: SetStages, meshes: list[Sections]) -> Section
     found: Sections = {}
     materials = {}
     for mesh, names in zip(meshes, GEARS_OF_MESHES):
-        for name, role in zip(names, ("pinion", "wheel")):
+        for name, role in zip(names, GEARS):
             home = f"gears.{role}"
             fields = {each: value for each, value in mesh[home].items() if each != "axial_offset"}
             width = mesh["gears"].get("face_width")

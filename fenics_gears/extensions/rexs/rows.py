@@ -6,6 +6,8 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from math import isclose
 
+from fenics_gears.scene_text import GEARS
+
 from .attributes import Reading
 from .circles import ROUNDED
 from .gears import Sections, distance_of_shifts
@@ -107,7 +109,7 @@ def _distance(said: str, meshes: Sequence[Sections]) -> dict[str, Value | None]:
         return {"centre_distance": replace(known[0], origin=together(each.origin for each in known))}
     for mesh, distance in zip(meshes, known):
         pair = mesh["gears"]
-        both = [mesh[f"gears.{name}"] for name in ("pinion", "wheel")]
+        both = [mesh[f"gears.{name}"] for name in GEARS]
         figures = [each[name] for name in ("teeth", "profile_shift") for each in both]
         beta = pair["helix_angle"].number if "helix_angle" in pair else 0.0
         if any(each is None for each in (pair["module"], pair["pressure_angle"], *figures)):
