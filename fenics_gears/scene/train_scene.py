@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 from math import gcd, lcm, prod
@@ -11,6 +12,7 @@ from fenics_gears.effects import common_period
 from fenics_gears.geometry.gear_train import Layout
 from fenics_gears.geometry.train_graph import turns_of_shafts
 
+from .accuracy import Accuracy
 from .train_joints import Joint
 from .train_mesh import MeshOfScene, OfMeshes, rows_of
 from .train_shafts import TrainShafts
@@ -57,6 +59,11 @@ class TrainScene(OfMeshes):
     def parts(self) -> tuple[TrainScene, ...]:
         """The trains in series that it is made of; itself, where no set stands beside other stages."""
         return self.joined or (self,)
+
+    def with_accuracy(self, change: Callable[[MeshOfScene], Accuracy]) -> TrainScene:
+        """The train with another accuracy of each mesh, and so its parts."""
+        meshes = tuple(replace(mesh, scene=replace(mesh.scene, accuracy=change(mesh))) for mesh in self.meshes)
+        return replace(self, meshes=meshes, joined=tuple(part.with_accuracy(change) for part in self.joined))
 
     @property
     def loads(self) -> list[float]:
