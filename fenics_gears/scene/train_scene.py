@@ -89,6 +89,11 @@ class TrainScene(OfMeshes):
         return [[first + each for each in row] for first, part in self.numbered for row in part.rows]
 
     @property
+    def rows_of_parts(self) -> list[tuple[TrainScene, list[int]]]:
+        """The same, each with its part and the numbers there."""
+        return [(part, row) for part in self.parts for row in part.rows]
+
+    @property
     def alone(self) -> list[int]:
         """Numbers of the meshes that are pairs by themselves."""
         if self.joined:

@@ -98,17 +98,6 @@ def test_a_row_that_memory_does_not_hold_is_refused(tmp_path, monkeypatch, capsy
         assert "contact operators apart, and 0.02 GB are allowed. Nothing was computed" in said
 
 
-def test_a_target_of_gears_that_are_computed_together_is_refused(tmp_path, capsys):
-    """With the section that takes it."""
-    path = tmp_path / "idler.toml"
-    gear = '{ teeth = 24, profile_shift = 0, bore_diameter = "30 mm" }'
-    text = '[stages.a]\nkind = "row"\nmodule = "3 mm"\npressure_angle = "20 deg"\nface_width = "30 mm"\n'
-    load = LOAD.replace(COARSE, 'target = "2 %"')
-    path.write_text(f'{text}gears = [{gear}, {gear}, {gear}]\nmaterial = "steel"\n{load}')
-    assert main(["check", str(path)]) == 2
-    assert "[stages.NAME.accuracy]" in capsys.readouterr().err
-
-
 @pytest.mark.nightly
 def test_a_target_is_kept_stage_by_stage(scene, tmp_path):
     """Settings are those that the pair alone gets for its target, and the scene in the result has them: it repeats the
