@@ -13,8 +13,6 @@ import xarray as xr
 
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.errors import GearsError
-from fenics_gears.model.cost_parts import ExpectedCost
-from fenics_gears.model.model import Model
 from fenics_gears.model.row_model import RowModel
 from fenics_gears.model.train import row_of
 from fenics_gears.model.train_cost import row_cost
@@ -66,25 +64,17 @@ class TrialsOfRow(Trials):
     """Of the meshes of these `numbers` of a train; steps count those of the mesh with fewest, others have more in
     proportion. Contact windows are those of the defaults. Their peak-to-peak values are those at steps."""
 
-    steps_matter = True
-
     def __init__(
         self, train: TrainScene, numbers: Sequence[int], cache: Cache | None, begun: Callable[[str], None],
         tick: Callable[[], None] | None = None,
     ):  # fmt: skip
-        super().__init__(begun, tick)
         self._train = train.with_accuracy(lambda mesh: Accuracy())
         self._numbers = numbers
         self._cache = cache
         self._usual = row_of(self._train, numbers)
         self._fewest = min(whole_steps(self._usual.meshes, [1] * len(numbers)))
         self.step_unit = 2 * self._fewest * ceil(ROUND_STEPS / (2 * self._fewest))
-        self.vibrates = self._usual.drivetrain.mass is not None
-        self.slices = max(model.slices_and_layers[0] or 0 for model in self.models)
-
-    @property
-    def models(self) -> Sequence[Model]:
-        return self._usual.models
+        super().__init__(self._usual.models, row_cost, self._usual.drivetrain.mass is not None, True, begun, tick)
 
     def setting(self, sizes: Sizes) -> SettingOfRow:
         found: dict[str, Accuracy] = {}
@@ -102,15 +92,8 @@ class TrialsOfRow(Trials):
             )
         return SettingOfRow(tuple(found.items()))
 
-    def resolving_mesh(self, elements: float) -> float:
-        resolved = [each.resolution for each in self.models]
-        return min(each.half_width / (elements * each.flank_element_size) or inf for each in resolved)
-
     def _with_window_long_enough(self, sizes: Sizes) -> None:
         """Windows are as wide as meshes together may need by their loads."""
-
-    def _cost(self, model: RowModel) -> ExpectedCost:
-        return row_cost(model)
 
     def _model(self, sizes: Sizes) -> RowModel:
         setting = self.setting(sizes)

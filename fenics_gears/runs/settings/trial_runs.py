@@ -67,49 +67,51 @@ class Sizes:
 
 class Trials(ABC):
     """Trial runs, each setting once. `begun`: called before each run with its settings in words; `tick`: called often
-    during a run, may raise KeyboardInterrupt. `steps_matter`: whether their number has an error of its own, `vibrates`:
-    whether that is of vibrations too. `step_unit`: what numbers of steps are multiples of, halves being whole.
+    during a run, may raise KeyboardInterrupt. `models`: of each mesh, with the settings that the program chooses;
+    `cost` of what is run. `vibrates`: whether masses do; `steps_matter`: whether their number has an error of its own.
 
     Of a pair `TrialRuns`, of meshes that are computed together `row_trials.TrialsOfRow`.
     """
 
+    # What numbers of steps are multiples of, halves being whole.
     step_unit = ROUND_STEPS
-    # The default number of slices, 0 in the plane.
-    slices: int
-    steps_matter: bool
-    vibrates: bool
 
-    def __init__(self, begun: Callable[[str], None], tick: Callable[[], None] | None = None):
+    def __init__(
+        self, models: Sequence[Model], cost: Callable[[Any], ExpectedCost], vibrates: bool, steps_matter: bool,
+        begun: Callable[[str], None], tick: Callable[[], None] | None,
+    ):  # fmt: skip
+        self.models = models
+        self._cost = cost
+        self.vibrates = vibrates
+        self.steps_matter = steps_matter
         self._begun = begun
         self._tick = tick
         self._answers: dict[Any, tuple[Answer, ...]] = {}
         self._allowed = allowed_memory()
         self.runs = 0
+        # The default number of slices, 0 in the plane.
+        self.slices = max(model.slices_and_layers[0] or 0 for model in models)
 
     @abstractmethod
     def setting(self, sizes: Sizes) -> Any:
         """Sizes as a setting, with its `words`."""
 
     @abstractmethod
-    def resolving_mesh(self, elements: float) -> float:
-        """Size of the mesh that has so many flank elements in the Hertz half-width."""
-
-    @property
-    @abstractmethod
-    def models(self) -> Sequence[Model]:
-        """Of each mesh with the settings that the program chooses."""
-
-    @abstractmethod
     def _model(self, sizes: Sizes) -> Any:
         """What is run with these sizes; raises TargetNotReached where they are beyond the limits."""
 
     @abstractmethod
-    def _cost(self, model: Any) -> ExpectedCost:
-        """Of a run of it."""
-
-    @abstractmethod
     def _run(self, setting: Any, progress: Progress) -> Any:
         """Run a setting, and keep its answers."""
+
+    @abstractmethod
+    def _with_window_long_enough(self, sizes: Sizes) -> None:
+        """Lengthen the contact window until no contact reaches its ends, where the program tells that it does."""
+
+    def resolving_mesh(self, elements: float) -> float:
+        """Size of the mesh that has so many flank elements in the Hertz half-width."""
+        resolved = [each.resolution for each in self.models]
+        return min(each.half_width / (elements * each.flank_element_size) or inf for each in resolved)
 
     @property
     def expected(self) -> dict[str, float]:
@@ -186,10 +188,6 @@ class Trials(ABC):
             self._tried(setting)
         return self._answers[setting]
 
-    @abstractmethod
-    def _with_window_long_enough(self, sizes: Sizes) -> None:
-        """Lengthen the contact window until no contact reaches its ends, where the program tells that it does."""
-
     def _tried(self, setting: Any) -> Any:
         self.runs += 1
         self._begun(setting.words)
@@ -207,15 +205,14 @@ class TrialRuns(Trials):
     """Of a pair; gears are condensed once for all runs that share them."""
 
     def __init__(self, scene: Scene, begun: Callable[[str], None], tick: Callable[[], None] | None = None):
-        super().__init__(begun, tick)
         self._whole = without_settings(scene)
         self._trial = replace(self._whole, output=Output(), motion=replace(scene.motion, recorded_cycles=1))
         self._known = SettingRuns(self._trial, lambda run, model, cycle: judged_answer(run), KEPT_GEARS)
         self._default = own_setting(self._whole)
+        vibrates = scene.inertia is not None
         # Without friction and inertia the value at a step does not depend on the steps before.
-        self.vibrates = scene.inertia is not None
-        self.steps_matter = scene.friction is not None or self.vibrates
-        self.slices = self._default.slices or 0
+        matter = scene.friction is not None or vibrates
+        super().__init__((model_of(self._whole),), expected_cost, vibrates, matter, begun, tick)
 
     def setting(self, sizes: Sizes) -> Setting:
         """Sizes as a setting with the contact window in use."""
@@ -228,17 +225,6 @@ class TrialRuns(Trials):
             steps=sizes.steps,
             slices=sizes.slices or default.slices,
         )
-
-    def resolving_mesh(self, elements: float) -> float:
-        half_width = model_of(self._whole).resolution.half_width
-        return half_width / (elements * self._default.flank) if half_width else inf
-
-    @property
-    def models(self) -> Sequence[Model]:
-        return (model_of(self._whole),)
-
-    def _cost(self, model: Model) -> ExpectedCost:
-        return expected_cost(model)
 
     def _model(self, sizes: Sizes) -> Model:
         setting = self.setting(sizes)
