@@ -163,12 +163,15 @@ def _of_row(path: tuple[str, ...], content: Mapping[str, Any]) -> Iterator[Probl
     if directions is not None and (not isinstance(directions, list) or len(directions) != len(gears) - 1):
         allowed = f"Allowed: {len(gears) - 1} angles, one for each mesh."
         yield Problem((*path, "directions"), as_written(directions), f"has not one angle for each mesh. {allowed}")
-    for name in OF_GEARS:
-        section = content.get(name, {})
-        for key in section if isinstance(section, Mapping) else ():
-            if key not in map(str, range(1, len(gears) + 1)):
-                said = f"is no gear of this row. Allowed: their numbers, 1 to {len(gears)}."
-                yield Problem((*path, name, key), as_written(section[key]), said)
+    for name in [each for each in OF_GEARS if each in content]:
+        section = content[name]
+        allowed = f"Allowed: sections by their numbers, 1 to {len(gears)}."
+        if not isinstance(section, Mapping) or not section:
+            yield Problem((*path, name), as_written(section), f"says of no gear what it has. {allowed}")
+            continue
+        for key, own in section.items():
+            if not isinstance(own, Mapping) or key not in map(str, range(1, len(gears) + 1)):
+                yield Problem((*path, name, key), as_written(own), f"is no gear of this row. {allowed}")
     for name in ("pinion", "wheel", "direction"):
         if name in content:
             yield Problem((*path, name), as_written(content[name]), "is of a pair. A row has gears and directions.")

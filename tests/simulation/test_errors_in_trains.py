@@ -168,6 +168,7 @@ def test_a_gear_with_several_mates_has_its_errors_once(one, two, said):
     [
         ('eccentricity.pinion = { distance = "5 um" }', r"row\.eccentricity\.pinion.*\n.*is no gear of this row"),
         ('eccentricity.4 = { distance = "5 um" }', "numbers, 1 to 3"),
+        ("flank_errors = 3", r"row\.flank_errors = 3.*\n.*of no gear"),
         ('eccentricity.2 = { distance = "5 kg" }', r"stages\.row\.eccentricity\.2\.distance"),
     ],
 )
