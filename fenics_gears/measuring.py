@@ -17,6 +17,7 @@ contact nodes, `NODE_SPACING` flank elements apart; gears condensed `ONCE` or at
 from fenics_gears.contact.interpolation import AVERAGED
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.effects import SECTIONS, effect_named, every_effect, without
+from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.root_stress import root_stress_rows
 from fenics_gears.geometry.lead_modification import LeadModification
 from fenics_gears.model.model import Model
@@ -50,9 +51,9 @@ from fenics_gears.system.versions import processor, versions
 
 __all__ = [
     "AVERAGED", "DEFECT", "EVERY_STEP", "FACE_LOAD", "ISO_6336", "MEAN", "NODE_SPACING", "ONCE", "OVER_FACE",
-    "RIGID_TEETH", "SECTIONS", "SPAN", "STAGES", "STIFFNESS_TABLE", "Accuracy", "Answer", "Cycle", "LeadModification",
-    "Model", "Output", "Setting", "SettingRuns", "Times", "answer", "broken_rules", "choose", "comparable",
-    "compile_kernels", "completed", "default_setting", "distance", "distances", "effect_named", "every_effect",
-    "half_width", "judged", "measures_of", "own_setting", "part_left", "processor", "root_stress_rows", "run_sharing",
-    "shared_gears", "stored_forces", "versions", "without", "without_settings",
+    "RIGID_TEETH", "SECTIONS", "SPAN", "STAGES", "STIFFNESS_TABLE", "Accuracy", "Answer", "Cache", "Cycle",
+    "LeadModification", "Model", "Output", "Setting", "SettingRuns", "Times", "answer", "broken_rules", "choose",
+    "comparable", "compile_kernels", "completed", "default_setting", "distance", "distances", "effect_named",
+    "every_effect", "half_width", "judged", "measures_of", "own_setting", "part_left", "processor",
+    "root_stress_rows", "run_sharing", "shared_gears", "stored_forces", "versions", "without", "without_settings",
 ]  # fmt: skip

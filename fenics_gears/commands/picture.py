@@ -9,6 +9,9 @@ from .shared import ANIMATION_FILE, PICTURE_FILE, add_output_argument, add_run_a
 def add(commands, shared: argparse.ArgumentParser) -> None:
     command = commands.add_parser("picture", parents=[shared])
     add_run_argument(command)
+    command.add_argument(
+        "--mesh", metavar="NAME", help="of a train: draw this mesh alone (default: all, each in a folder by its name)"
+    )
     help_of_phase = "mesh cycles after the first step with contact fields (default: 0)"
     command.add_argument("--at", type=float, default=0.0, metavar="PHASE", help=help_of_phase)
     command.add_argument(

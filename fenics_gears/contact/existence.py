@@ -65,12 +65,11 @@ def _undone(weights: Balance) -> np.ndarray:
     return np.where(locked, 1.0 - weights.sliding / np.where(locked, weights.normal, 1.0), 0.0)
 
 
-def locks(operator: ContactOperator, forces: np.ndarray, wheel: int, load: float) -> bool:
-    """Whether friction at a closed node cancels more of the `load` on the wheel, the coordinate of that number, than
-    its normal force holds."""
-    motion = np.zeros(operator.jacobian.shape[1])
-    motion[wheel] = np.sign(load)
-    return bool(locked_nodes(working(operator.jacobian, motion, forces)).any())
+def locks(operator: ContactOperator, forces: np.ndarray, wheels: np.ndarray, nodes: Sequence[slice]) -> bool:
+    """Whether friction at a closed node cancels more of the load on its wheel than its normal force holds. By mesh,
+    `wheels` (f, k): how the coordinates move as the load turns the wheel; `nodes`: those of the mesh."""
+    meshes = zip(wheels, nodes)
+    return any(locked_nodes(working(operator.jacobian, wheel, forces))[own].any() for wheel, own in meshes)
 
 
 def explained(problem, attempts) -> ContactNotConverged:

@@ -105,6 +105,11 @@ class Cycle:
         self._positions = self._built  # with openings, if there are any
         self._shared: dict[type, Any] = {}
 
+    @property
+    def longest_lever(self) -> float:
+        """Of friction about the wheel's axis, at its tip, by that of the normal force."""
+        return self.pair.wheel.tip_roll_angle
+
     def with_gaps(self, gaps: Gaps) -> Cycle:
         """The same contact nodes and operators, which both have in common, with other gaps."""
         other = copy(self)

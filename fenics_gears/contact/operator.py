@@ -220,6 +220,11 @@ class Position:
         ))  # fmt: skip
 
     @property
+    def of_wheels(self) -> tuple[slice, ...]:
+        """The contact nodes of each mesh."""
+        return (slice(None),)
+
+    @property
     def bytes(self) -> int:
         """Size of the arrays of the contact operator."""
         whole = sum(array.nbytes for array in self.in_memory[1])

@@ -107,6 +107,10 @@ class JoinedPosition(Position):
 
     of_meshes: tuple[tuple[Position, int], ...] = ()
 
+    @property
+    def of_wheels(self) -> tuple[slice, ...]:
+        return tuple(slice(first, first + own.operator.nodes) for own, first in self.of_meshes)
+
 
 class RowCycle(Cycle):
     """Contact equations of all `meshes` of a train, whose steps are of one length in time."""
@@ -138,6 +142,10 @@ class RowCycle(Cycle):
         # What is shared has addresses of gaps.
         other._shared = {}
         return other
+
+    @property
+    def longest_lever(self) -> float:
+        return max(mesh.friction * mesh.cycle.longest_lever for mesh in self.meshes)
 
     def share(self, memory: float, once: bool = False) -> None:
         """Let operators take so many bytes, those of single meshes among them; those of all meshes are held

@@ -55,9 +55,8 @@ class Marcher:
         self.cycle = cycle
         self.stepper = self.batch.common
         friction = self.stepper.friction
-        # Friction's lever arm is longest at the wheel's tip; with a smaller coefficient it never outweighs the normal
-        # force there.
-        self._may_lock = friction > 0.0 and friction * cycle.pair.wheel.tip_roll_angle >= 1.0
+        # With a smaller coefficient friction never outweighs the normal force.
+        self._may_lock = friction > 0.0 and friction * cycle.longest_lever >= 1.0
         # By run, why it has no solution at a step; without frames, which would hold the march until Python looks for
         # garbage.
         self.failures: dict[int, ContactNotConverged] = {}
@@ -281,11 +280,13 @@ class Marcher:
         # Of few runs.
         from fenics_gears.contact.existence import locks
 
-        wheel = self.stepper.drivetrain.driven
+        wheels = np.array(self.stepper.drivetrain.ends)
 
         def is_locked(record: Record) -> bool:
-            load = self.stepper.load(record.step)[wheel]
-            return locks(record.position.operator, record.solution.forces, wheel, load)
+            # Within a train torque reaches a wheel through those behind it; power goes from pinions to wheels.
+            senses = np.sign(wheels @ self.stepper.load(record.step)) if len(wheels) == 1 else np.ones(len(wheels))
+            motions = senses[:, None] * wheels
+            return locks(record.position.operator, record.solution.forces, motions, record.position.of_wheels)
 
         return [int(record.step) for record in solved.records if record.step > 0 and is_locked(record)]
 

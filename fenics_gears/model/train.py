@@ -69,11 +69,11 @@ class TrainModel:
 
 def train_model_of(scene: TrainScene) -> TrainModel:
     """The model of a train. Raises SceneError for what trains do not have yet, and as `model_of` of each mesh."""
-    return TrainModel(scene, tuple(_row_of(part, numbers) for part in scene.parts for numbers in part.rows))
+    return TrainModel(scene, tuple(row_of(*each) for each in scene.rows_of_parts))
 
 
-def _row_of(scene: TrainScene, numbers: Sequence[int]) -> RowModel:
-    """The row of these meshes of a train."""
+def row_of(scene: TrainScene, numbers: Sequence[int]) -> RowModel:
+    """The row of these meshes of a train. Raises as `train_model_of`."""
     meshes = tuple(scene.meshes[number] for number in numbers)
     if len(meshes) == 1 and not scene.shafts.moving:
         return RowModel(meshes, (replace(model_of(meshes[0].scene), of_slowest=Fraction(1)),))

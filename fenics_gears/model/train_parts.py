@@ -206,6 +206,13 @@ def bent_of(meshes: Sequence[MeshOfScene], shafts: TrainShafts) -> BentShafts | 
 def check_alike(meshes: Sequence[MeshOfScene], models: Sequence[Model]) -> None:
     """Raise SceneError for what meshes that move together do not have yet."""
     check_shared(layout_of(meshes), models, gear_names(meshes), [mesh.name for mesh in meshes])
+    targets = list(dict.fromkeys(mesh.scene.accuracy.target for mesh in meshes))
+    if len(targets) > 1:
+        bare = next(mesh.name for mesh in meshes if mesh.scene.accuracy.target != meshes[0].scene.accuracy.target)
+        raise SceneError(
+            f"accuracy.target: {bare} has another than {meshes[0].name}, which moves together with it. Allowed: one"
+            f" target for all of them, [accuracy] for the whole train. {NOTHING_DONE}"
+        )
     frictional = [model.scene.friction is not None for model in models]
     if any(frictional) and not all(frictional):
         bare = next(mesh.name for mesh, own in zip(meshes, frictional) if not own)

@@ -22,6 +22,7 @@ from .planetary import result_of_set
 from .recorder import Recorder
 from .train import OF_ENERGY, MeshResult
 from .train_shafts import ShaftsOfTrain
+from .validity import locking
 
 if TYPE_CHECKING:
     from .train_shafts import ResultOfShafts
@@ -65,6 +66,8 @@ class RowResult:
             places = _along_the_row(coordinates_of(recorder, recorder.arrays))
             numbers = self._numbers(recorder)
             said = self._said(march)
+            if recorder.model.friction_coefficient * recorder.cycle.longest_lever >= 1.0:
+                said += locking(self._slowest.cycle, march)
             for along in recorder.along_face:
                 labelled = xr.Dataset(curves, places)
                 numbers |= _finite(along.numbers(labelled, numbers))
@@ -73,7 +76,7 @@ class RowResult:
             # All of them took that march.
             seconds = (0.0 if found else march.seconds, 0.0)
             found.append(MeshResult(mesh.name, own, numbers, said, seconds))
-        if self._row.models[0].scene.friction is not None:
+        if self._row.models[0].scene.friction is not None and not march.locked:
             found[-1].numbers["friction_loss"] = self._friction_loss()
         if self._states:
             found[0] = replace(found[0], shafts=self._of_shafts(np.concatenate(self._states)))
@@ -91,6 +94,10 @@ class RowResult:
         """Part of the driving work that friction takes in the recorded steps."""
         lost, driven = (np.concatenate(each)[-self._row.recorded :] for each in (self._lost, self._driven))
         return float(lost.sum() / (driven.sum() + self._driving_work(len(lost))))
+
+    @property
+    def _slowest(self) -> Recorder:
+        return max(self._recorders, key=lambda recorder: recorder.cycle.steps)
 
     @staticmethod
     def _said(march: March) -> list[str]:

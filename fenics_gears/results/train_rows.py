@@ -87,10 +87,14 @@ def _set_rows(found: xr.Dataset) -> Rows:
 
 
 def _of_the_whole(found: xr.Dataset, unit: str) -> Rows:
-    return [
+    rows = [
         (f"overall transmission error, {label}", in_microradians(found.attrs[f"{name}_{OVERALL}"]), unit)
         for name, label in (("peak_to_peak", "peak to peak"), ("mean", "mean"))
     ]
+    if "target" in found:
+        error, target = (float(np.nanmax(found[name])) for name in ("estimated_error", "target"))
+        rows.append(("estimated error of T_E and T_EPP, of the worst mesh", f"{error:.2%}, target {target:.3%}", ""))
+    return rows
 
 
 def _of_each_mesh(found: xr.Dataset) -> dict[str, np.ndarray]:

@@ -74,7 +74,7 @@ def warnings_of(recorder: Recorder, march: March, result: RunResult) -> list[str
         of_flanks += along.warnings(result.dataset)
     return [
         *_passed_through(cycle, result), *of_flanks, *_rotation(result), *_wedged(cycle, result),
-        *_separation(cycle, drivetrain, march, clock, result), *_locking(cycle, march), *_uniqueness(march),
+        *_separation(cycle, drivetrain, march, clock, result), *locking(cycle, march), *_uniqueness(march),
     ]  # fmt: skip
 
 
@@ -183,7 +183,8 @@ def _when(step: int, cycle: Cycle, clock: Clock) -> str:
     return f"{clock.time(step):.4g} s (mesh cycle {step / cycle.steps:.2f})"
 
 
-def _locking(cycle: Cycle, march: March) -> list[str]:
+def locking(cycle: Cycle, march: March) -> list[str]:
+    """What to say where friction locks the teeth."""
     if not march.locked:
         return []
     return [

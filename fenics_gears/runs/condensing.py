@@ -72,7 +72,7 @@ def _tasks(model: Model | TrainModel) -> Iterator[tuple[str, tuple, GearTask | S
             mesh, side = sides[0]
             if len(sides) == 1:
                 yield from _of_pair(row.models[mesh], GEARS[side : side + 1])
-            else:
+            elif row.models[mesh].scene.accuracy.target is None:
                 # Without what the models have computed of themselves.
                 yield BODY, row.keys_of_shared(gear), SharedGearTask(row.changed(replace), gear)
 

@@ -13,7 +13,6 @@ from fenics_gears.elasticity.cache import Cache
 from fenics_gears.errors import MemoryEnded
 from fenics_gears.model.model import Model
 from fenics_gears.results.dataset import RunResult
-from fenics_gears.results.numbers import ESTIMATED
 from fenics_gears.scene.data import Scene
 from fenics_gears.simulation.compiled_ahead import compile_loops
 from fenics_gears.simulation.routes import Preparation
@@ -125,9 +124,8 @@ def settled(scene: Scene | Model, progress: Progress) -> SettledScene:
         settings = choose(known, target, progress)
     except MemoryError:
         raise MemoryEnded("before the run was over") from None
-    how: dict[str, Any] = {"target": target, "estimated_error": settings.estimated_error}
-    how |= {f"{ESTIMATED}{name}": part for name, part in settings.parts.items()}
-    how |= {"target_runs": settings.runs, "target_remarks": "", "time_choose": time.perf_counter() - begun}
-    if settings.accuracy.slices:
-        how |= {"slices": settings.accuracy.slices, "layers": settings.accuracy.layers}
-    return SettledScene(replace(known, accuracy=settings.accuracy), how)
+    accuracy = settings.setting.accuracy(known.gears.module)
+    how = settings.attributes(target) | {"target_remarks": "", "time_choose": time.perf_counter() - begun}
+    if accuracy.slices:
+        how |= {"slices": accuracy.slices, "layers": accuracy.layers}
+    return SettledScene(replace(known, accuracy=accuracy), how)

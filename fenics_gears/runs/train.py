@@ -1,10 +1,10 @@
-"""A run of a train from its scene to its result: the settings of stages with a target are chosen first."""
+"""A run of a train from its scene to its result: where it has a target, settings are chosen first."""
 
 from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import xarray as xr
@@ -13,7 +13,7 @@ from fenics_gears.contact.errors import ContactNotConverged
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.inputs.section import tree_of
 from fenics_gears.inputs.written import as_toml
-from fenics_gears.model.train import TrainModel, train_model_of
+from fenics_gears.model.train import TrainModel, row_of, train_model_of
 from fenics_gears.results.train import MeshResult, dataset_of, mesh_result
 from fenics_gears.scene.accuracy import Accuracy
 from fenics_gears.scene.parsing import parsed
@@ -27,6 +27,8 @@ from fenics_gears.system.progress import Progress, SilentProgress
 from .gear_store import GearStore
 from .simulate import settled_run
 
+# What the result says of each mesh for which settings were chosen.
+OF_TARGET = ("target", "estimated_error", "target_runs")
 Keep = Callable[[MeshOfScene, xr.Dataset], None]
 
 
@@ -39,8 +41,8 @@ def simulate_train(
     kept_row: KeptRow | None = None,
 ) -> xr.Dataset:
     """Run a train and return its result: the variables of a pair over steps and `mesh`, the numbers of each mesh, and
-    the transmission error of the whole over time. Of stages with `[accuracy] target` settings are chosen first, and the
-    scene in the result has them.
+    the transmission error of the whole over time. With `[accuracy] target` settings are chosen first, at once of meshes
+    that are computed together, and the scene in the result has them.
 
     keep: is given each stage of two gears and its result as a pair.
     preparation: as in `simulate`, of each of these; kept_row: keeps the contact equations of rows with idlers, or makes
@@ -58,11 +60,22 @@ def simulate_train(
     model = scene if isinstance(scene, TrainModel) else train_model_of(scene)
     chosen: dict[str, Accuracy] = {}
     found: list[MeshResult] = []
-    for row in model.rows:
+    for row, (part, numbers) in zip(model.rows, model.scene.rows_of_parts):
         mesh = row.meshes[0]
+        target = mesh.scene.accuracy.target
         try:
             if not row.single:
-                found += solved_row(row, progress, cache, kept_row)
+                how: dict[str, Any] = {}
+                if target is not None:
+                    # Runs without a target load nothing of it.
+                    from .settings.row_trials import chosen_of_row
+
+                    settings = chosen_of_row(part, numbers, target, cache, progress)
+                    row = row_of(settings.setting.of(part), numbers)
+                    chosen |= dict(settings.setting.of_stages)
+                    how = {name: settings.attributes(target)[name] for name in OF_TARGET}
+                own = solved_row(row, progress, cache, kept_row)
+                found += [replace(each, numbers=each.numbers | how) for each in own]
                 continue
             result = settled_run(row.models[0], progress, cache=cache, preparation=preparation)
         except ContactNotConverged as failure:
@@ -73,7 +86,7 @@ def simulate_train(
             raise KeyboardInterrupt
         if keep is not None:
             keep(mesh, result.dataset)
-        if row.models[0].scene.accuracy.target is not None:
+        if target is not None:
             chosen[row.models[0].scene.name] = result.recorder.model.scene.accuracy
         found.append(mesh_result(mesh.name, result))
     dataset = dataset_of(model, found)

@@ -176,12 +176,14 @@ class Carrier:
 @dataclass(frozen=True)
 class OfSet:
     """A mesh of a set: the `stage`, what it calls the gears of the pair, and how often its effects are named:
-    `sun_mesh` or `ring_mesh`; and fields of gears that are its own (`cut`)."""
+    `sun_mesh` or `ring_mesh`; and fields of gears that are its own (`cut`). `own_accuracy`: whether `[accuracy]` is of
+    the stage, not of the whole train."""
 
     stage: str
     gears: tuple[str, str]
     mesh: str
     cut: tuple[str, ...] = ()
+    own_accuracy: bool = False
 
     def words(self, said: str) -> str:
         """What is said of the pair, in words of the set."""
@@ -194,6 +196,8 @@ class OfSet:
 
     def place(self, path: tuple[str, ...]) -> tuple[str, ...]:
         """Where a scene has what the scene of the pair has at a path."""
+        if path[:1] == ("accuracy",) and self.own_accuracy:
+            return ("stages", self.stage, *path)
         if path[:1] != ("gears",):
             return path if path[:1] in (("friction",), ("accuracy",), ("load",)) else (
                 "stages", self.stage, self.mesh, *path

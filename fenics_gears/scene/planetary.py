@@ -95,7 +95,9 @@ def _of_meshes(stage: str, content: Tree) -> tuple[OfSet, OfSet]:
     sun, planet, *step, second = gears_in(content)
     with_sun, with_second = meshes_in(content)
     cut = tuple(name for name in OF_THE_STEP if name in content.get(with_second, {}))
-    return OfSet(stage, (sun, planet), with_sun), OfSet(stage, ((*step, planet)[0], second), with_second, cut)
+    finely = "accuracy" in content
+    with_step = OfSet(stage, ((*step, planet)[0], second), with_second, cut, finely)
+    return OfSet(stage, (sun, planet), with_sun, own_accuracy=finely), with_step
 
 
 def _scenes(tree: Tree, of_meshes: Sequence[OfSet], content: Tree, source: str, folder: Path) -> list[Scene]:
@@ -133,6 +135,7 @@ def _scene(tree: Tree, own: OfSet, content: Tree, gears: Mapping[str, Any], sour
         **({"misalignment": {"in_plane": "0 um"}} if over_face else {}),
         "gears": shared | {name: gears[called] for name, called in zip(GEARS, own.gears)},
         **{name: tree[name] for name in ("friction", "accuracy") if name in tree},
+        **{name: content[name] for name in ("accuracy",) if name in content},
         **of_mesh,
         "load": {"wheel_torque": "1 N m"},
     }

@@ -46,7 +46,7 @@ NOT_HERE = {
     "pinion_hand": "is of a pair. Allowed: sun_hand.",
     "flank_errors": "is of a pair. Of a set pitch errors alone are computed. Allowed: pitch_errors.",
     **dict.fromkeys(OF_A_MESH, f"is of one mesh: write it in [stages.NAME.{SUN_MESH}] or [stages.NAME.{RING_MESH}]."),
-    **{name: f"is of the whole train: write it as [{name}]." for name in ("friction", "accuracy")},
+    "friction": "is of the whole train: write it as [friction].",
 }  # fmt: skip
 OF_A_SET_ALONE = ("inertia", "damping", "speed_ramp")
 NOT_WITH_A_SET = {
@@ -90,7 +90,7 @@ def text_of_set(stage: str, content: Tree) -> tuple[PlanetaryText | None, list[P
     shared = [name for name in names_in(Gears) if name not in (*GEARS, "backlash", "pinion_hand")]
     gears = gears_in(content)
     meshes = meshes_in(content)
-    known = ["kind", *own, *shared, *gears, STEP, RING, *meshes]
+    known = ["kind", "accuracy", *own, *shared, *gears, STEP, RING, *meshes]
     for name in content:
         if name in NOT_HERE:
             problems.append(Problem((*path, name), as_written(content[name]), NOT_HERE[name].replace("NAME", stage)))

@@ -47,18 +47,22 @@ def pitches_of(
     return tuple((name, pitches) for name, pitches in every if pitches is not None and any(pitches))
 
 
-def with_pitches(meshes: Sequence[MeshOfScene], pitches: Mapping[str, tuple[float, ...]]) -> list[MeshOfScene]:
-    """Meshes with the `[flank_errors]` of their pairs, where those of gears are listed as their first mesh counts
-    teeth. All have the section, so that their windows of contact nodes are alike."""
+def with_pitches(
+    meshes: Sequence[MeshOfScene], pitches: Mapping[str, tuple[float, ...]], counted: Mapping[str, int] | None = None
+) -> list[MeshOfScene]:
+    """Meshes with the `[flank_errors]` of their pairs, where those of gears are listed as one mesh counts teeth, their
+    first unless `counted`. All have the section, so that their windows of contact nodes are alike."""
     layout = layout_of(meshes)
     found = []
     for number, mesh in enumerate(meshes):
-        errors = [GearErrors(), GearErrors()]
+        own = mesh.scene.flank_errors or FlankErrors(pinion=GearErrors(), wheel=GearErrors())
+        errors = [own.pinion, own.wheel]
         for side, (gear, name) in enumerate(zip(layout.graph.gears[number], mesh.gears)):
             if name in pitches:
-                begins = layout.shared(gear, layout.graph.sides[gear][0][0], number).first
+                by = layout.graph.sides[gear][0][0] if counted is None else counted[name]
+                begins = layout.shared(gear, by, number).first
                 errors[side] = GearErrors(pitch=pitches[name], first=begins % len(pitches[name]))
-        own = FlankErrors(pinion=errors[0], wheel=errors[1])
+        own = replace(own, pinion=errors[0], wheel=errors[1])
         found.append(replace(mesh, scene=replace(mesh.scene, flank_errors=own)))
     return found
 
@@ -82,25 +86,43 @@ def with_run_outs(meshes: Sequence[MeshOfScene], run_outs: Sequence[RunOut]) -> 
 
 
 def in_all_meshes(meshes: Sequence[MeshOfScene], source: str) -> list[MeshOfScene]:
-    """Meshes of a train in which a gear with several mates runs out in all of them as the scene has it in one."""
+    """Meshes of a train in which a gear with several mates runs out, or has pitch errors, in all of them as the scene
+    has it in one."""
     layout = layout_of(meshes)
-    found: dict[str, RunOut] = {}
+    run_outs: dict[str, RunOut] = {}
+    pitches: dict[str, tuple[float, ...]] = {}
+    counted: dict[str, int] = {}
     for number, mesh in enumerate(meshes):
         own = mesh.scene.eccentricity
-        for side, gear, offset in zip(mesh.pair.sides, layout.graph.gears[number], () if own is None else own.of_gears):
-            name = mesh.gears[side.number]
-            if offset is None or gear not in layout.graph.shared:
+        errors = mesh.scene.flank_errors
+        for side, gear in zip(mesh.pair.sides, layout.graph.gears[number]):
+            if gear not in layout.graph.shared:
                 continue
-            if offset.wobble or name in found:
-                what = "wobbles, which is not yet computed" if offset.wobble else "runs out in two stages"
+            name = mesh.gears[side.number]
+            place = f"{source}: {mesh.name}: the gear {name} has several mates and"
+            offset = None if own is None else own.of_gears[side.number]
+            if offset is not None:
+                if offset.wobble or name in run_outs:
+                    what = "wobbles, which is not yet computed" if offset.wobble else "runs out in two stages"
+                    allowed = "Allowed: its distance and phase in [eccentricity], in one of its stages."
+                    raise SceneError(f"{place} {what}. {allowed} {NOTHING_DONE}")
+                angle = side.turning * offset.phase
+                along, off = layout.axes(number).T @ np.array([cos(angle), sin(angle)])
+                run_outs[name] = RunOut(name, offset.distance, atan2(off, along))
+            listed = GearErrors() if errors is None else (errors.pinion, errors.wheel)[side.number]
+            if errors is None or listed == GearErrors() and errors.tolerance_class is None:
+                continue
+            if errors.tolerance_class is not None or listed.pitch is None or listed != GearErrors(pitch=listed.pitch):
                 raise SceneError(
-                    f"{source}: stages.{mesh.name}.eccentricity: the gear {name} has several mates and {what}. Allowed:"
-                    f" its distance and phase, in one of its stages. {NOTHING_DONE}"
+                    f"{place} flank errors that are not yet computed there. Allowed: a list of its pitch deviations in"
+                    f" [flank_errors], in one of its stages. {NOTHING_DONE}"
                 )
-            angle = side.turning * offset.phase
-            along, off = layout.axes(number).T @ np.array([cos(angle), sin(angle)])
-            found[name] = RunOut(name, offset.distance, atan2(off, along))
-    return with_run_outs(meshes, list(found.values())) if found else list(meshes)
+            if name in pitches:
+                raise SceneError(f"{place} flank errors in two stages. Allowed: in one of them. {NOTHING_DONE}")
+            pitches[name] = listed.pitch
+            counted[name] = number
+    found = with_pitches(meshes, pitches, counted) if pitches else list(meshes)
+    return with_run_outs(found, list(run_outs.values())) if run_outs else found
 
 
 def _offset(axes: np.ndarray, turning: float, own: RunOut) -> Offset:

@@ -100,11 +100,6 @@ def pair_of(scene: Scene, label: str, words: Callable[[str], str] = str) -> Gear
 def check_together(scene: Scene, source: str) -> None:
     """Raise SceneError for a mesh that cannot yet move together with others."""
     together = "where meshes move together, by idlers, [shafts], [inertia] or [bearings]"
-    if scene.accuracy.target is not None:
-        raise SceneError(
-            f"{source}: accuracy.target is not yet computed {together}. Allowed: settings of [accuracy] there, and a"
-            f" target within stages of two gears by themselves, [stages.NAME.accuracy]. {NOTHING_DONE}"
-        )
     if not scene.resolves_contact or scene.accuracy.condensation is not None:
         raise SceneError(
             f"{source}: rigid teeth, accuracy.model and accuracy.condensation are not yet computed {together}."

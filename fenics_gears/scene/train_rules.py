@@ -25,7 +25,9 @@ SHARED = ("friction", "accuracy", "inertia", "bearings")
 OVER_THE_FACE = ("lead_modifications", "misalignment")
 OF_A_ROW = (*SHARED, "tip_relief", "root_relief", "profile_modifications", "corner_contact", *OVER_THE_FACE)
 RUN_OUT = "eccentricity"
-OF_A_STAGE = (*OF_A_ROW, "coast_flanks", "body_meshes", "flank_errors", RUN_OUT)
+# Of single gears: of a pair by `pinion` and `wheel`, of a row by their numbers.
+OF_GEARS = ("flank_errors", RUN_OUT)
+OF_A_STAGE = (*OF_A_ROW, "coast_flanks", "body_meshes", *OF_GEARS)
 OF_A_PAIR = ("shafts", "damping", "torque_ripple", "speed_ramp")
 OF_A_TRAIN = ("title", "stages", "load", "motion", *SHARED, "shafts", "damping", "speed_ramp")
 MOST_STAGES = 20
@@ -99,9 +101,9 @@ def _of_stage(path: tuple[str, ...], content: Any, coupled: bool) -> Iterator[Pr
         wrong = "gears" if "gears" in content else "directions"
         yield Problem((*path, wrong), as_written(content[wrong]), f'is of a row. Add kind = "{ROW}", or leave it out.')
     for name in (*OF_A_PAIR, *(OF_A_STAGE if coupled else ())):
-        if name in content and name not in OF_A_ROW and (name != RUN_OUT or kind == ROW):
+        if name in content and name not in (*OF_A_ROW, *OF_GEARS):
             what = "where a gear has several mates" if name in OF_A_STAGE else "of a stage by itself"
-            allowed = f"Allowed: {', '.join(OF_A_ROW if coupled else OF_A_STAGE)}."
+            allowed = f"Allowed: {', '.join((*OF_A_ROW, *OF_GEARS) if coupled else OF_A_STAGE)}."
             if name in OF_A_TRAIN:
                 allowed = f"Write it for the whole train: [{name}]."
             yield Problem((*path, name), "", f"is not yet computed {what}. {allowed}")
@@ -121,6 +123,15 @@ def _of_row(path: tuple[str, ...], content: Mapping[str, Any]) -> Iterator[Probl
     if directions is not None and (not isinstance(directions, list) or len(directions) != len(gears) - 1):
         allowed = f"Allowed: {len(gears) - 1} angles, one for each mesh."
         yield Problem((*path, "directions"), as_written(directions), f"has not one angle for each mesh. {allowed}")
+    for name in [each for each in OF_GEARS if each in content]:
+        section = content[name]
+        allowed = f"Allowed: sections by their numbers, 1 to {len(gears)}."
+        if not isinstance(section, Mapping) or not section:
+            yield Problem((*path, name), as_written(section), f"says of no gear what it has. {allowed}")
+            continue
+        for key, own in section.items():
+            if not isinstance(own, Mapping) or key not in map(str, range(1, len(gears) + 1)):
+                yield Problem((*path, name, key), as_written(own), f"is no gear of this row. {allowed}")
     for name in ("pinion", "wheel", "direction"):
         if name in content:
             yield Problem((*path, name), as_written(content[name]), "is of a pair. A row has gears and directions.")

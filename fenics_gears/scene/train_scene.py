@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 from math import gcd, lcm, prod
@@ -10,6 +11,7 @@ from math import gcd, lcm, prod
 from fenics_gears.effects import common_period
 from fenics_gears.geometry.gear_train import Layout
 
+from .accuracy import Accuracy
 from .train_joints import Joint
 from .train_mesh import MeshOfScene, OfMeshes, rows_of
 from .train_shafts import TrainShafts
@@ -57,6 +59,11 @@ class TrainScene(OfMeshes):
         """The trains in series that it is made of; itself, where no set stands beside other stages."""
         return self.joined or (self,)
 
+    def with_accuracy(self, change: Callable[[MeshOfScene], Accuracy]) -> TrainScene:
+        """The train with another accuracy of each mesh, and so its parts."""
+        meshes = tuple(replace(mesh, scene=replace(mesh.scene, accuracy=change(mesh))) for mesh in self.meshes)
+        return replace(self, meshes=meshes, joined=tuple(part.with_accuracy(change) for part in self.joined))
+
     @property
     def loads(self) -> list[float]:
         """Torque (N mm) that resists the rotation of each shaft from outside, 0 where there is none."""
@@ -79,6 +86,11 @@ class TrainScene(OfMeshes):
         if not self.joined:
             return rows_of(self.meshes, self.shafts.moving)
         return [[first + each for each in row] for first, part in self.numbered for row in part.rows]
+
+    @property
+    def rows_of_parts(self) -> list[tuple[TrainScene, list[int]]]:
+        """The same, each with its part and the numbers there."""
+        return [(part, row) for part in self.parts for row in part.rows]
 
     @property
     def alone(self) -> list[int]:

@@ -21,7 +21,7 @@ from .train_layout import check_cut_alike
 from .train_mesh import MeshOfScene
 from .train_pair import MistakesOfStage, Placed, check_together, in_stage, motion_put_in, pair_of, pair_scene
 from .train_pair_shafts import in_train, in_words_of_train, of_pair, place_of, sections_of_pair
-from .train_rules import OF_A_STAGE, SHARED, TrainSections
+from .train_rules import OF_A_STAGE, OF_GEARS, ROW, SHARED, TrainSections
 from .train_shaft import BentShaft
 from .train_topology import NamedMesh, gears_within, graph_of, named_meshes
 
@@ -89,6 +89,11 @@ def _scene_of(
     own = {name: value for name, value in content.items() if name not in ("kind", "gears", "directions", "direction")}
     inner = {name: value for name, value in own.items() if name in OF_A_STAGE}
     fields = {name: value for name, value in own.items() if name not in (*OF_A_STAGE, *GEARS)}
+    numbers = _numbers_of(mesh, content)
+    for name in {*inner} & {*OF_GEARS} if numbers else ():
+        # A gear has its errors in the first mesh that it is in.
+        inner[name] = {side: inner[name][number] for side, number in numbers.items() if number in inner[name]}
+        inner = inner if inner[name] else {each: value for each, value in inner.items() if each != name}
     both = {name: gears[gear] for name, gear in zip(GEARS, mesh.gears)}
     given = {name: gear for name, gear in both.items() if gear is not None}
     shared = {name: tree[name] for name in SHARED if name in tree}
@@ -102,9 +107,22 @@ def _scene_of(
     places = {name: at[2:] for name, at in zip(GEARS, mesh.places)}
     name = f"{mesh.stage} {mesh.number + 1}" if mesh.count > 1 else mesh.stage
     in_its_stage = partial(in_stage, mesh.stage, places, shared.keys() - inner.keys())
-    put = Placed(lambda path: place_of(on_shafts, path) or in_its_stage(path), partial(in_words_of_train, on_shafts))
+
+    def in_train_at(path: Field) -> Field:
+        if path[:1] and path[0] in OF_GEARS and path[1:2] and path[1] in numbers:
+            path = (path[0], numbers[path[1]], *path[2:])
+        return place_of(on_shafts, path) or in_its_stage(path)
+
+    put = Placed(in_train_at, partial(in_words_of_train, on_shafts))
     label = f"{source}, stage {mesh.stage}"
     return pair_scene(sections, name, label, folder, put)
+
+
+def _numbers_of(mesh: NamedMesh, content: Mapping[str, Any]) -> dict[str, str]:
+    """By which numbers a row calls the gears of a mesh that are in none before it; none of a pair."""
+    if content.get("kind") != ROW:
+        return {}
+    return {"wheel": f"{mesh.number + 2}"} | ({} if mesh.number else {"pinion": "1"})
 
 
 def _direction(mesh: NamedMesh, content: Mapping[str, Any], source: str) -> float:

@@ -159,8 +159,8 @@ class RunStresses:
     def _gear(self, gear: int, stored: StoredForces, motion: np.ndarray) -> GearInSpace:
         recovery = self.recoveries[gear]
         data = self.model.pair.gears[gear]
-        forces = stored.on_flanks(self.model, gear, recovery.heights)
-        body = recovery.recovered(forces, self._sectors(data, forces))
+        forces = self.forces(gear, stored)
+        body = recovery.recovered(forces, self._sectors(data, gear, stored))
         centre, turns, places = self._standing(gear, stored.phase)
         own = np.array(body.sectors) % data.tooth_count
         # In the plane nothing moves along z.
@@ -186,11 +186,15 @@ class RunStresses:
             rim_and_hub=rim_and_hub,
         )
 
-    def _sectors(self, gear: Gear, forces: dict[int, np.ndarray]) -> range:
+    def forces(self, gear: int, stored: StoredForces) -> dict[int, np.ndarray]:
+        """Forces on the flanks of a gear, as of `StoredForces.on_flanks`, at the heights of its nodes."""
+        return stored.on_flanks(self.model, gear, self.recoveries[gear].heights)
+
+    def _sectors(self, data: Gear, gear: int, stored: StoredForces) -> range:
         if self.model.face.slices == 1:
-            return range(gear.tooth_count)
-        loaded = [*forces] or [0]
-        return range(min(loaded) - ON_EITHER_SIDE, max(loaded) + ON_EITHER_SIDE + 1)[: gear.tooth_count]
+            return range(data.tooth_count)
+        loaded = [pair.place.teeth[gear] for pair, force in zip(stored.pairs, stored.forces) if force.any()] or [0]
+        return range(min(loaded) - ON_EITHER_SIDE, max(loaded) + ON_EITHER_SIDE + 1)[: data.tooth_count]
 
     def _standing(self, gear: int, phase: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """A gear's centre (2,); how a section's frame stands (teeth, h, 3, 3), by sector and height, and its nodes'

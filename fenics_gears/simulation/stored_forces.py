@@ -21,7 +21,7 @@ MID_WIDTH = np.zeros(1)
 @dataclass(frozen=True)
 class StoredForces:
     """The contact of one stored step: its tooth pairs, and the forces (n,) or (2 n,), N, of each one's contact nodes.
-    `index`: place of the step among the stored ones; `phase`: of the last whole mesh cycle the part."""
+    `index`: place of the step among the stored ones; `phase`: mesh cycles since the start of contact of pair 0."""
 
     index: int
     phase: float
@@ -59,7 +59,8 @@ def stored_index(result: xr.Dataset, mesh_phase: float) -> int:
 def stored_forces(result: xr.Dataset, model: Model, cycle: Cycle, index: int) -> StoredForces:
     """The contact forces of a step, by its place among those with contact fields; `cycle`: the one that the run had.
     Raises ComputationError where the result was computed from another scene than `model` is of."""
-    step = round(float(result["contact_mesh_phase"].values[index]) * cycle.steps)
+    begins = cycle.mesh.ahead
+    step = round((float(result["contact_mesh_phase"].values[index]) - begins) * cycle.steps)
     pairs = cycle.pairs_at(step % cycle.steps)
     numbers = result["contact_pair_number"]
     slot = {int(number): i for i, number in enumerate(numbers.values[index])}
@@ -68,7 +69,7 @@ def stored_forces(result: xr.Dataset, model: Model, cycle: Cycle, index: int) ->
         _forces_of(result, model, pair, index, slot.get(int(cycle.pair_number(step, pair.place.index)) + first))
         for pair in pairs
     )
-    return StoredForces(index, step % cycle.steps / cycle.steps, pairs, forces)
+    return StoredForces(index, step % cycle.steps / cycle.steps + begins, pairs, forces)
 
 
 def _forces_of(result: xr.Dataset, model: Model, pair: ToothPair, index: int, slot: int | None) -> np.ndarray:

@@ -13,6 +13,7 @@ from fenics_gears.inputs.tree import GEARS, LOADS, value_at
 from fenics_gears.scene.schema import known_paths, paths_in, scene_text
 from fenics_gears.scene.train_loads import TrainLoad
 from fenics_gears.scene.train_pair import STAGES
+from fenics_gears.scene.train_rules import OF_GEARS
 from fenics_gears.scene.train_schema import stage_text, train_text
 from fenics_gears.scene.train_shafts import TrainShaft
 
@@ -40,7 +41,8 @@ def _field_at(path: Path) -> tuple[type[Section] | None, Allowed | None] | None:
     """The section at a path, or what its field allows; None where a scene has nothing of that name."""
     # Stages and shafts of a train have any names: the scene says which.
     if path[0] == STAGES:
-        return _field_within(stage_text(), path[2:])
+        named = [GEARS[1] if each.isdigit() and path[2] in OF_GEARS else each for each in path[2:]]
+        return _field_within(stage_text(), tuple(named))
     found = _field_within(scene_text(), path) or _field_within(train_text(), path)
     return found or (_field_within(TrainShaft, path[2:]) if path[0] == SHAFTS and len(path) > 1 else None)
 
@@ -99,7 +101,7 @@ def _changed(home: Any, path: Path, value: Any, whole: Path) -> Any:
     if isinstance(home, list):
         name = _place_in(home, name, whole)
         home = list(home)
-    elif name.isdigit():
+    elif name.isdigit() and not (whole[0] == STAGES and whole[2] in OF_GEARS):
         return {**home, LISTED: _changed(home.get(LISTED, []), path, value, whole)}
     else:
         home = dict(home)

@@ -2,7 +2,9 @@
 
 import numpy as np
 import pytest
-from tests.trains import COARSE, gear_text, mate, stage, two_stages
+from tests.planets import COARSE as COARSE_SET
+from tests.planets import planetary, written_out
+from tests.trains import COARSE, gear_text, mate, row_section, stage, two_stages
 
 from fenics_gears import SceneError, overall_orders, scene_from_text, simulate, simulate_train, train_from_text
 
@@ -91,17 +93,67 @@ def test_an_idler_that_runs_out_moves_both_of_its_mates():
         assert shift == pytest.approx(moved, abs=1e-9 * DISTANCE), mesh
 
 
+def test_a_row_has_errors_of_its_gears_by_their_numbers():
+    """Identity with the same gears as pairs that name each other's: an idler that runs out and has pitch errors, and
+    gears at both ends."""
+    pitches = ", ".join(f'"{each} um"' for each in (*PITCHES, 3, -3, 1, -2, 1))
+    rest = f'[load]\noutput_torque = "200 N m"\n[accuracy]\n{COARSE}\n[motion]\nmesh_cycles = 25\n'
+    idler = f"eccentricity.GEAR = {RUN_OUT}\nflank_errors.GEAR.pitch = [{pitches}]\n"
+    ends = 'eccentricity.GEAR = { distance = "5 um" }\n'
+    stages = mate(
+        "one",
+        gear_text(20, 2.0),
+        gear_text(25, 2.0),
+        15.0,
+        more=idler.replace("GEAR", "wheel") + ends.replace("GEAR", "pinion"),
+    )
+    stages += mate("two", '"one.wheel"', gear_text(30, 2.0), 70.0, more=ends.replace("GEAR", "wheel"))
+    gears = ", ".join(gear_text(each, 2.0) for each in (20, 25, 30))
+    row = mate(
+        "row", "", "", 0.0, more=idler.replace("GEAR", "2") + ends.replace("GEAR", "1") + ends.replace("GEAR", "3")
+    )
+    kept = [each for each in row.splitlines() if each.split("=")[0].strip() not in ("pinion", "wheel", "direction")]
+    kept += ['kind = "row"', f"gears = [{gears}]", 'directions = ["15 deg", "70 deg"]']
+    of_row = simulate_train(train_from_text("\n".join(kept) + "\n" + rest))
+    of_pairs = simulate_train(train_from_text(stages + rest))
+    for name in ("transmission_error", "normal_force", "pinion_index_deviation"):
+        assert np.array_equal(of_row[name].values, of_pairs[name].values, equal_nan=True), name
+
+
+def test_pitches_of_gears_with_several_mates_are_those_of_a_set():
+    """Identity with a planetary set whose carrier is at rest: of a planet, which is an idler, and of the sun, which has
+    two mates on one flank."""
+    same = f'{COARSE_SET}\ncontact_length = "4 mm"\ncontact_nodes = 20'
+    sun, planet = ([f"{each} um" for each in (*PITCHES[:count], -sum(PITCHES[:count]))] for count in (16, 17))
+    of_planets = [*["0 um"] * 18, *planet]
+    own = planetary(
+        parts=("carrier", "sun", "ring"), load='output_torque = "2 kN m"', accuracy=same,
+        more=f"pitch_errors = {{ sun = {sun}, planets = {of_planets} }}", sections="[motion]\nmesh_cycles = 6\n",
+    )  # fmt: skip
+    written = written_out((17, 18, 53), [0.0, 180.0], same).text + "[motion]\nmesh_cycles = 6\n"
+    written = written.replace("[stages.sun0]", f"[stages.sun0.flank_errors]\npinion.pitch = {sun}\n[stages.sun0]")
+    written = written.replace("[stages.sun1]", f"[stages.sun1.flank_errors]\nwheel.pitch = {planet}\n[stages.sun1]")
+    of_set = simulate_train(own)
+    of_pairs = simulate_train(train_from_text(written))
+    np.testing.assert_allclose(of_set["normal_force"], of_pairs["normal_force"], rtol=1e-9)
+
+
 @pytest.mark.parametrize(
     ("one", "two", "said"),
     [
         ("wheel = {0}", "pinion = {0}", "runs out in two stages"),
         ('wheel = {{ wobble = "9 um" }}', "", "wobbles, which is not yet computed"),
+        ("flank_errors.wheel.profile_slope", "", "flank errors that are not yet computed there"),
+        ("flank_errors.tolerance_class", "", "flank errors that are not yet computed there"),
+        ("flank_errors.wheel.pitch", "flank_errors.pinion.pitch", "flank errors in two stages"),
     ],
 )
-def test_a_gear_with_several_mates_runs_out_in_one_way(one, two, said):
+def test_a_gear_with_several_mates_has_its_errors_once(one, two, said):
     """What would be meant twice is refused."""
 
     def more(stage: str, own: str) -> str:
+        if own.startswith("flank_errors"):
+            return f"{own} = {7 if 'class' in own else ['1 um', '-1 um', *['0 um'] * 23]}\n"
         return f"[stages.{stage}.eccentricity]\n{own.format(RUN_OUT)}\n" if own else ""
 
     text = mate("one", gear_text(20, 2.0), gear_text(25, 2.0), 15.0, more=more("one", one))
@@ -109,3 +161,19 @@ def test_a_gear_with_several_mates_runs_out_in_one_way(one, two, said):
     text = text.replace("face_width", 'helix_angle = "15 deg"\nface_width')
     with pytest.raises(SceneError, match=said):
         train_from_text(f'{text}[load]\noutput_torque = "200 N m"\n')
+
+
+@pytest.mark.parametrize(
+    ("own", "said"),
+    [
+        ('eccentricity.pinion = { distance = "5 um" }', r"row\.eccentricity\.pinion.*\n.*is no gear of this row"),
+        ('eccentricity.4 = { distance = "5 um" }', "numbers, 1 to 3"),
+        ("flank_errors = 3", r"row\.flank_errors = 3.*\n.*of no gear"),
+        ('eccentricity.2 = { distance = "5 kg" }', r"stages\.row\.eccentricity\.2\.distance"),
+    ],
+)
+def test_errors_of_a_row_are_told_at_their_places(own, said):
+    """Numbers of gears that the row has not, and fields within those that it has."""
+    text = row_section((20, 24, 24), (0, 0)) + own
+    with pytest.raises(SceneError, match=said):
+        train_from_text(f'{text}\n[load]\noutput_torque = "200 N m"\n')

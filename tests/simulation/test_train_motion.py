@@ -100,3 +100,16 @@ def test_a_train_of_one_mesh_on_a_ramp_is_the_pair():
     assert found["time"].values == pytest.approx(expected["time"].values, rel=1e-12)
     for name in ("transmission_error", "normal_force", "rotation", "mesh_frequency"):
         assert found.isel(mesh=0)[name].values == pytest.approx(expected[name].values, rel=1e-9, abs=1e-15), name
+
+
+@pytest.mark.parametrize("strong", ["first", "second"])
+def test_friction_locks_the_mesh_that_has_it(strong):
+    """By lever arms: where the coefficient times the roll angle of the wheel's tip is below 1 friction cannot lock, so
+    that only the mesh with the strong friction does, wherever it stands; there is no efficiency then."""
+    friction = "".join(
+        f"[stages.{name}.friction]\ncoefficient = {2.0 if name == strong else 0.1}\n" for name in ("first", "second")
+    )
+    found = simulate_train(two_stages(more=friction + BEARINGS))
+    said = [each for each in found.attrs["warnings"].splitlines() if "self-locking" in each]
+    assert [each.partition(":")[0] for each in said] == [strong]
+    assert "friction_loss" not in found.attrs

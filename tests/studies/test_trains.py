@@ -17,6 +17,7 @@ from fenics_gears.runs.condensing import gear_tasks
 from fenics_gears.runs.gear_store import GearStore
 from fenics_gears.runs.run import scene_key
 from fenics_gears.simulation import train as train_simulation
+from fenics_gears.studies import fields
 from fenics_gears.studies.combine import load_combined
 from fenics_gears.studies.study_file import load_study
 
@@ -110,6 +111,15 @@ def test_a_row_is_condensed_idler_and_all(gearbox):
 
 
 @pytest.mark.usefixtures("undrawn")
+def test_errors_of_a_row_are_varied_by_numbers():
+    """By hand: of the second gear a table of its own beside those of other gears."""
+    tree = {"stages": {"row": {"gears": [{}, {}], "eccentricity": {"1": {"distance": "5 um"}}}}}
+    path = ("stages", "row", "eccentricity", "2", "distance")
+    assert fields.why_unknown(path) is None and fields.is_numeric(path)
+    found = fields.changed(tree, path, "3 um")["stages"]["row"]
+    assert found["eccentricity"] == {"1": {"distance": "5 um"}, "2": {"distance": "3 um"}} and len(found["gears"]) == 2
+
+
 def test_rows_with_other_friction_share_their_contact_equations(gearbox, monkeypatch):
     """They are made once, and every case is what a run of its train alone gives."""
     made = []

@@ -1,23 +1,26 @@
 """What ``gears picture`` does."""
 
 import argparse
-import sys
+from collections.abc import Callable
 from contextlib import closing
+from functools import partial
 from pathlib import Path
 
 from fenics_gears.errors import SceneError
+from fenics_gears.inputs.problem import did_you_mean
 from fenics_gears.results.mesh_of_train import carried_train, mesh_run
 from fenics_gears.show.run import scene_of
 from fenics_gears.show.stress_animation import animate, check_suffix, save_series
 from fenics_gears.show.stress_grid import save_vtu
 from fenics_gears.show.stress_picture import save_picture, still
+from fenics_gears.simulation.mesh_stresses import MeshStresses
 from fenics_gears.simulation.run_stresses import RunStresses
 from fenics_gears.simulation.stored_forces import stored_index
 from fenics_gears.system.console import printable
 from fenics_gears.system.output import check_writable, write_whole
 
 from ..shared import ANIMATION_FILE, PICTURE_FILE
-from .runs import loaded_run, of_train, run_file, stages_beside
+from .runs import loaded_run, of_train, run_file
 from .shared import print_files, shown_progress
 
 
@@ -29,56 +32,61 @@ def picture(options: argparse.Namespace) -> int:
     _check_outputs(options, output if drawn else None)
     dataset = loaded_run(file, trains=True)
     if of_train(dataset):
-        return _of_stages(options, file, dataset)
+        return _of_train(options, file, dataset)
+    if options.mesh is not None:
+        raise SceneError(f"--mesh {options.mesh}: {file} is the run of a pair. Leave the option out.")
     scene = _scene_of(file, dataset)
     index = stored_index(dataset, options.at)
-    with closing(shown_progress(options.quiet)) as progress:
-        progress.stage("factorise sectors")
-        written = _written(options, dataset, scene, index, output if drawn else None, progress)
-    print_files(written, options.quiet)
+    _draw(options, dataset, lambda: RunStresses(dataset, scene), index, output if drawn else None)
     return 0
 
 
-def _written(options, dataset, scene, index: int, output: Path | None, progress) -> list[Path]:
+def _draw(
+    options: argparse.Namespace, dataset, stresses: Callable[[], RunStresses], index: int, output: Path | None
+) -> None:
+    """Write what is asked for of one pair, and tell its files."""
     written: list[Path] = []
-    with RunStresses(dataset, scene) as runs:
-        if options.vtu is not None:
-            written.append(write_whole(options.vtu, lambda path: save_vtu(runs.at(index), path)))
-        if options.pvd is not None:
-            progress.stage("recover stresses")
-            written.append(write_whole(options.pvd, lambda path: save_series(runs, dataset, path, progress.update)))
-        if output is not None:
-            progress.stage("draw")
-            scale = options.scale
-            if options.animate:
-                written.append(write_whole(output, lambda path: animate(runs, dataset, path, scale, progress.update)))
-            else:
-                drawn = still(runs.at(index), dataset, scale)
-                written.append(write_whole(output, lambda path: save_picture(drawn, path)))
-    return written
+    with closing(shown_progress(options.quiet)) as progress:
+        progress.stage("factorise sectors")
+        with stresses() as runs:
+            if options.vtu is not None:
+                written.append(write_whole(options.vtu, lambda path: save_vtu(runs.at(index), path)))
+            if options.pvd is not None:
+                progress.stage("recover stresses")
+                written.append(write_whole(options.pvd, lambda path: save_series(runs, dataset, path, progress.update)))
+            if output is not None:
+                progress.stage("draw")
+                scale = options.scale
+                if options.animate:
+                    moving = partial(animate, runs, dataset, scale=scale, report=progress.update)
+                    written.append(write_whole(output, moving))
+                else:
+                    drawn = still(runs.at(index), dataset, scale)
+                    written.append(write_whole(output, lambda path: save_picture(drawn, path)))
+    print_files(written, options.quiet)
 
 
-def _of_stages(options: argparse.Namespace, file: Path, dataset) -> int:
-    """Draw each stage of two gears of a train, in a folder by its name. Bodies of idlers have the forces of two meshes,
-    which are not drawn."""
+def _of_train(options: argparse.Namespace, file: Path, dataset) -> int:
+    """Draw the meshes of a train, or one, each in a folder by its name; of meshes that are alike the first."""
     train = carried_train(dataset)
-    if options.output is not None or options.vtu is not None or options.pvd is not None:
-        raise SceneError(f"--output, --vtu and --pvd are for the run of a pair. {stages_beside(file)}")
-    if not train.alone:
-        raise SceneError(
-            f"{file}: gears of meshes that are computed together are not drawn yet. Allowed: trains with stages of two"
-            " gears, without [shafts], [inertia] and [bearings]."
-        )
-    for number in train.alone:
-        mesh = train.meshes[number]
+    names = [mesh.name for mesh in train.meshes]
+    wanted = [number for number, mesh in enumerate(train.meshes) if mesh.like is None]
+    if options.mesh is not None:
+        if options.mesh not in names:
+            known = f"{did_you_mean(options.mesh, names)} Known: {', '.join(names)}."
+            raise SceneError(f"--mesh {options.mesh}: is no mesh of this train.{known}")
+        wanted = [names.index(options.mesh)]
+    elif options.output is not None or options.vtu is not None or options.pvd is not None:
+        raise SceneError(f"--output, --vtu and --pvd are of one mesh. Name it by --mesh; known: {', '.join(names)}.")
+    for number in wanted:
         own = mesh_run(dataset, train, number)
-        output = file.parent / mesh.name / (ANIMATION_FILE if options.animate else PICTURE_FILE)
+        folder = file.parent / names[number].replace(":", "")
+        output = options.output or folder / (ANIMATION_FILE if options.animate else PICTURE_FILE)
         check_writable(output.parent, output.name)
-        with closing(shown_progress(options.quiet)) as progress:
-            written = _written(options, own, mesh.scene, stored_index(own, options.at), output, progress)
-        print_files(written, options.quiet)
-    if train.together and not options.quiet:
-        print(f"Not drawn, since their meshes are computed together: {', '.join(train.together)}.", file=sys.stderr)
+        scene = train.meshes[number].scene
+        by_itself = number in train.alone
+        stresses = partial(RunStresses, own, scene) if by_itself else partial(MeshStresses, dataset, train, number)
+        _draw(options, own, stresses, stored_index(own, options.at), output)
     return 0
 
 

@@ -6,6 +6,8 @@ import argparse
 import sys
 from collections.abc import Callable
 from contextlib import closing
+from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -24,7 +26,7 @@ from fenics_gears.command_line import (
 from fenics_gears.many_runs import communicator
 from fenics_gears.scene_text import load_scene_or_train
 
-from . import train_accuracy
+from . import train_accuracy, train_effects, train_rows
 from .accuracy import report, work_precision
 from .accuracy import table as accuracy_table
 from .effect_costs import measured, table
@@ -33,56 +35,51 @@ from .effect_costs.picture import effect_costs
 NO_TIMES = "measures times, which mean nothing while processes share the machine. Start gears without mpirun."
 
 
+@dataclass(frozen=True)
+class Measurement:
+    """A command on one scene: `measure(scene, progress)` makes its report, `write_csv(report, file)` and
+    `draw(report)` the files of it, and `tell(report)` prints it."""
+
+    measure: Callable
+    write_csv: Callable
+    draw: Callable
+    tell: Callable
+
+
 def effects(options: argparse.Namespace) -> int:
-    return report_of(options, "effects", measured.measure, table.write_csv, effect_costs, _print_effects)
+    of_train = replace(TRAIN, measure=train_effects.measure)
+    return report_of(options, "effects", EFFECTS, of_train)
 
 
 def effects_of(scene: Scene, directory: Path, progress) -> list[Path]:
     """The files of ``gears effects`` on a scene, written into a directory. Raises SceneError under mpirun."""
     if communicator() is not None:
         raise SceneError(f"--effects {NO_TIMES}")
-    return write_report(measured.measure(scene, progress), directory, "effects", table.write_csv, effect_costs)
+    return write_report(EFFECTS, measured.measure(scene, progress), directory, "effects")
 
 
-def _print_effects(report, files: list[Path]) -> None:
+def _tell_effects(report) -> None:
     heading = f"{report.scene.title}: effects, one more than the bare scene and one less than all"
     print_table(heading, table.headings(report), table.table_rows(report))
     print_rows("Remarks", [(f"[{number}]", remark, "") for number, remark in enumerate(table.remarks(report), 1)])
     if report.skipped:
         print_rows("Not run", [(each.name, each.reason, "") for each in report.skipped])
     print_rows("Bare and full scene", table.ratio_in_words(report))
-    print_origin(report, files)
 
 
 def accuracy(options: argparse.Namespace) -> int:
-    def measure(scene, progress):
-        if isinstance(scene, Scene):
-            return report.measure(scene, progress, quick=options.quick)
-        return train_accuracy.measure(scene, progress)
-
-    def write_csv(found, file: Path) -> None:
-        of_train = isinstance(found, train_accuracy.TrainReport)
-        (train_accuracy if of_train else accuracy_table).write_csv(found, file)
-
-    def draw(found):
-        of_train = isinstance(found, train_accuracy.TrainReport)
-        return train_accuracy.picture(found) if of_train else work_precision.work_precision(found)
-
-    return report_of(options, "accuracy", measure, write_csv, draw, _print_accuracy)
+    of_pair = replace(ACCURACY, measure=partial(report.measure, quick=options.quick))
+    of_train = replace(TRAIN, measure=partial(train_accuracy.measure, quick=options.quick))
+    return report_of(options, "accuracy", of_pair, of_train)
 
 
-def _print_accuracy_of_train(report, files: list[Path]) -> None:
-    title = f"{report.title}: numbers, and how they change with one setting finer in all meshes"
-    print_table(title, train_accuracy.headings(report), train_accuracy.table_rows(report))
-    if report.failures:
-        print_rows("Not run", [(name, reason, "") for name, reason in report.failures])
-    print_origin(report, files)
+def _tell_train(report) -> None:
+    print_table(f"{report.title}: {report.what}", train_rows.headings(report), train_rows.table_rows(report))
+    if report.left:
+        print_rows("Not run", [(name, reason, "") for name, reason in report.left])
 
 
-def _print_accuracy(report, files: list[Path]) -> None:
-    if isinstance(report, train_accuracy.TrainReport):
-        _print_accuracy_of_train(report, files)
-        return
+def _tell_accuracy(report) -> None:
     title = f"{report.scene.title}: each setting's error, the others at {report.fine.words}"
     print_table(title, accuracy_table.headings(report), accuracy_table.table_rows(report))
     print_table(
@@ -95,68 +92,63 @@ def _print_accuracy(report, files: list[Path]) -> None:
     print_rows("Remarks", [("", remark, "") for remark in remarks])
     if report.failures:
         print_rows("Not run", [(name, reason, "") for name, reason in report.failures])
-    print_origin(report, files)
+
+
+EFFECTS = Measurement(measured.measure, table.write_csv, effect_costs, _tell_effects)
+ACCURACY = Measurement(report.measure, accuracy_table.write_csv, work_precision.work_precision, _tell_accuracy)
+TRAIN = Measurement(train_accuracy.measure, train_rows.write_csv, train_rows.picture, _tell_train)
 
 
 def scenes_to_measure(options, command: str) -> list[tuple[Any, Path]]:
     """The scene and the directory of a command that measures times; of a train those of its stages of two gears, each
-    by itself, or the train where `gears accuracy` measures meshes that are computed together. Raises SceneError under
-    mpirun, and as `checked_model` does."""
+    by itself, or the train where all its meshes are computed together. Raises SceneError under mpirun, and as
+    `checked_model` does."""
     scene = load_scene_or_train(options.scene)
+    directory = options.output or Path("results") / scene.name
     if isinstance(scene, Scene):
-        found = [(checked_model(options.scene).scene, options.output or Path("results") / scene.name)]
-    elif command == "accuracy" and not scene.alone:
-        found = [(scene, options.output or Path("results") / scene.name)]
+        found: list[tuple[Any, Path]] = [(checked_model(options.scene).scene, directory)]
+    elif not scene.alone:
+        found = [(scene, directory)]
     else:
-        found = _stages(scene, options, command)
-    for _, directory in found:
-        check_writable(directory, f"{command}.csv", f"{command}.png")
+        coupled = ", ".join(scene.together)
+        left = f" Left out, since their meshes are computed together: {coupled}." if coupled else ""
+        if not options.quiet:
+            said = "Each stage of two gears by itself, under its torque: shafts between them are rigid."
+            print(f"{said}{left}", file=sys.stderr)
+        alone = [scene.meshes[number] for number in scene.alone]
+        found = [(mesh.scene, directory / mesh.name) for mesh in alone]
+    for _, each in found:
+        check_writable(each, f"{command}.csv", f"{command}.png")
     if communicator() is not None:
         raise SceneError(f"gears {command} {NO_TIMES}")
-    if any(isinstance(each, Scene) and each.accuracy.target is not None for each, _ in found):
+    scenes = [
+        own
+        for each, _ in found
+        for own in ([each] if isinstance(each, Scene) else [mesh.scene for mesh in each.meshes])
+    ]
+    if any(each.accuracy.target is not None for each in scenes):
         raise SceneError(f"gears {command} takes settings as they stand: leave accuracy.target out.")
     return found
 
 
-def _stages(train, options, command: str) -> list[tuple[Scene, Path]]:
-    """The pairs of a train that are computed by themselves, and a folder for each; the standard error says so."""
-    alone = [train.meshes[number] for number in train.alone]
-    if not alone:
-        raise SceneError(
-            f"gears {command} takes stages of two gears, each by itself; the meshes of this train are computed together"
-            f" ({', '.join(train.together)}), whose effects are not measured yet: make a scene of one of its pairs."
-        )
-    coupled = ", ".join(train.together)
-    left = f" Left out, since their meshes are computed together: {coupled}." if coupled else ""
-    if not options.quiet:
-        said = "Each stage of two gears by itself, under its torque: shafts between them are rigid."
-        print(f"{said}{left}", file=sys.stderr)
-    directory = options.output or Path("results") / train.name
-    return [(mesh.scene, directory / mesh.name) for mesh in alone]
-
-
-def report_of(options, command: str, measure: Callable, write_csv: Callable, draw: Callable, tell: Callable) -> int:
-    """Carry a command out that measures times: `measure(scene, progress)` makes the report, `write_csv` and `draw` its
-    files as in `write_report`, `tell(report, files)` prints it. Returns the exit code."""
+def report_of(options, command: str, of_pair: Measurement, of_train: Measurement) -> int:
+    """Carry a command out that measures times. Returns the exit code."""
     undrawn = False
     for scene, directory in scenes_to_measure(options, command):
+        own = of_pair if isinstance(scene, Scene) else of_train
         with closing(shown_progress(options.quiet)) as progress:
-            report = measure(scene, progress)
-        files = write_report(report, directory, command, write_csv, draw)
+            found = own.measure(scene, progress)
+        files = write_report(own, found, directory, command)
         undrawn |= len(files) < 2
         if not options.quiet:
-            tell(report, files)
+            own.tell(found)
+            print_rows("Measured on", [(name, words, "") for name, words in found.machine.items()])
+            print_rows("Files", [("", str(file), "") for file in files])
     return WITHOUT_SOMETHING if undrawn else 0
 
 
-def write_report(report, directory: Path, name: str, write_csv: Callable, draw: Callable) -> list[Path]:
-    """Write `name`.csv by `write_csv(report, file)`, then `name`.png, the figure `draw(report)`; return the files."""
-    written = write_whole(directory / f"{name}.csv", lambda path: write_csv(report, path))
-    drawn = after_result(written, "picture", lambda: save_figures({f"{name}.png": draw(report)}, directory))
+def write_report(own: Measurement, found, directory: Path, name: str) -> list[Path]:
+    """Write `name`.csv and `name`.png of a report; return the files."""
+    written = write_whole(directory / f"{name}.csv", lambda path: own.write_csv(found, path))
+    drawn = after_result(written, "picture", lambda: save_figures({f"{name}.png": own.draw(found)}, directory))
     return [written, *(drawn or [])]
-
-
-def print_origin(report, files: list[Path]) -> None:
-    """The end of a report: what it was measured on, and its files."""
-    print_rows("Measured on", [(name, words, "") for name, words in report.machine.items()])
-    print_rows("Files", [("", str(file), "") for file in files])

@@ -1,19 +1,21 @@
 """Settings for a target: errors are estimated at coarse sizes, sizes of least counted cost follow from them by order
 2."""
 
+from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from math import ceil, sqrt
+from typing import Any
 
 import numpy as np
 
+from fenics_gears.results.numbers import ESTIMATED
 from fenics_gears.scene.accuracy import RESOLVED
-from fenics_gears.scene.data import Accuracy, Scene
+from fenics_gears.scene.data import Scene
 from fenics_gears.system.progress import Progress
 
 from .convergence import EXPECTED_ORDER, SAFETY_OF_TWO
-from .setting import Setting
-from .trial_runs import COARSER, MESH, SLICES, STEPS, Sizes, TargetNotReached, TrialRuns
+from .trial_runs import COARSER, MESH, SLICES, STEPS, Sizes, TargetNotReached, TrialRuns, Trials
 
 # Sizes at which errors are estimated first for a target of 1 %.
 FIRST_MESH = 2.5
@@ -26,8 +28,6 @@ FEWEST_SLICES = 16
 # Steps over the face for a target of 1 %, where they know nothing of one another: line loads are averaged over them.
 # From 20 to 100 steps the mean changes by 0.25 %.
 FACE_STEPS = 28.0
-# Steps in a mesh cycle are multiples of this, so that curves of different runs have phases in common.
-ROUND_STEPS = 20
 # In the search for the cheapest a mesh becomes finer, steps become more by this factor.
 RATIO = 2.0 ** (1.0 / 6.0)
 # Sizes finer than the trial runs' by more than this factor are not trusted: new trial runs have sizes coarser by the
@@ -50,11 +50,10 @@ Errors = dict[str, np.ndarray]
 
 @dataclass(frozen=True)
 class Chosen:
-    """Chosen settings with their relative estimated error in the measure that is worst: `parts` by setting,
-    `estimated_error` of all together; `runs`: how many it took."""
+    """A chosen setting, of one pair or of meshes together, with its relative estimated error in the measure that is
+    worst: `parts` by setting, `estimated_error` of all together; `runs`: how many it took."""
 
-    accuracy: Accuracy
-    setting: Setting
+    setting: Any
     parts: dict[str, float]
     runs: int
 
@@ -63,24 +62,22 @@ class Chosen:
         """Root of the sum of squares: the parts have nothing to do with one another."""
         return sqrt(sum(part**2 for part in self.parts.values()))
 
+    def attributes(self, target: float) -> dict[str, Any]:
+        """What a result says of it."""
+        parts = {f"{ESTIMATED}{name}": part for name, part in self.parts.items()}
+        return {"target": target, "estimated_error": self.estimated_error, **parts, "target_runs": self.runs}
+
 
 def choose(scene: Scene, target: float, progress: Progress) -> Chosen:
     """The cheapest settings that reach a relative error in T_E (L2, mean removed) and in T_EPP, over the face also in
     line load and load factors. Raises TargetNotReached where none does within the limits; ComputationError where a run
     fails."""
+    return chosen_by(lambda *told: TrialRuns(scene, *told), target, progress)
+
+
+def chosen_by(trials: Callable[..., Trials], target: float, progress: Progress) -> Chosen:
+    """As `choose`, by `trials(begun, tick)`."""
     progress.stage(f"choose settings for {100.0 * target:g} %")
-    try:
-        chosen = _chosen(_reporting_runs(scene, progress), scene.gears.module, target)
-        progress.update(chosen.runs, chosen.runs)
-        return chosen
-    except TargetNotReached as reason:
-        raise TargetNotReached(
-            f"accuracy.target = {100.0 * target:g} % is not reached: {reason}. Take a larger target, or give settings"
-            " of your own; `gears accuracy` shows the error of each."
-        ) from None
-
-
-def _reporting_runs(scene: Scene, progress: Progress) -> TrialRuns:
     done = -1
     now = ""
 
@@ -93,10 +90,18 @@ def _reporting_runs(scene: Scene, progress: Progress) -> TrialRuns:
     def tick() -> None:
         progress.update(done, max(done + 1, USUAL_RUNS), now)
 
-    return TrialRuns(scene, begun, tick)
+    try:
+        chosen = _chosen(trials(begun, tick), target)
+        progress.update(chosen.runs, chosen.runs)
+        return chosen
+    except TargetNotReached as reason:
+        raise TargetNotReached(
+            f"accuracy.target = {100.0 * target:g} % is not reached: {reason}. Take a larger target, or give settings"
+            " of your own; `gears accuracy` shows the error of each."
+        ) from None
 
 
-def _chosen(runs: TrialRuns, module: float, target: float) -> Chosen:
+def _chosen(runs: Trials, target: float) -> Chosen:
     """Estimate errors and choose; once more from finer sizes where the chosen ones are much finer."""
     tried = _within_limits(runs, first_sizes(target, runs))
     for _ in range(MOST_ROUNDS):
@@ -108,16 +113,16 @@ def _chosen(runs: TrialRuns, module: float, target: float) -> Chosen:
             and sizes.slices <= EXTRAPOLATED * tried.slices
         ):
             setting = runs.setting(_resolving(runs, sizes, target))
-            return Chosen(setting.accuracy(module), setting, _of_worst(errors_at(tried, errors, sizes)), runs.runs)
+            return Chosen(setting, _of_worst(errors_at(tried, errors, sizes)), runs.runs)
         tried = Sizes(
             min(COARSER_FIRST * sizes.mesh, tried.mesh),
-            max(round_steps(sizes.steps / COARSER_FIRST), tried.steps),
+            max(round_steps(sizes.steps / COARSER_FIRST, runs.step_unit), tried.steps),
             max(even(sizes.slices / COARSER_FIRST), tried.slices),
         )  # fmt: skip
     raise TargetNotReached(f"errors do not fall with order 2 down to {runs.setting(tried).words}")
 
 
-def _resolving(runs: TrialRuns, sizes: Sizes, target: float) -> Sizes:
+def _resolving(runs: Trials, sizes: Sizes, target: float) -> Sizes:
     """These sizes with a mesh that resolves the contact as well as the target asks for pressures. Where that is beyond
     the limits the sizes stay, and a warning of the run says so."""
     elements = min(RESOLVED, sqrt(PRESSURE_ERROR / target))
@@ -137,12 +142,12 @@ def _of_worst(errors: Errors) -> dict[str, float]:
     return {name: float(np.ravel(parts)[worst]) for name, parts in errors.items()}
 
 
-def first_sizes(target: float, runs: TrialRuns) -> Sizes:
+def first_sizes(target: float, runs: Trials) -> Sizes:
     """Sizes of the first trial runs: in the plane somewhat coarser than those that will be chosen, over the face those
     that the expected errors ask for."""
     finer = sqrt(0.01 / target)
     by_target = FIRST_STEPS if runs.steps_matter else FACE_STEPS if runs.slices else 0.0
-    steps = round_steps(max(by_target * finer, runs.fewest_steps))
+    steps = round_steps(max(by_target * finer, runs.fewest_steps), runs.step_unit)
     plane = max(min(FIRST_MESH / finer, FIRST_PLANE_MESH), min(FIRST_PLANE_MESH / finer, FIRST_MESH))
     if not runs.slices:
         return Sizes(plane, steps)
@@ -159,7 +164,7 @@ def even(number: float) -> int:
     return 2 * ceil(0.5 * number - 1e-9)
 
 
-def _within_limits(runs: TrialRuns, sizes: Sizes) -> Sizes:
+def _within_limits(runs: Trials, sizes: Sizes) -> Sizes:
     """These sizes, or a coarser mesh where they are beyond the limits; raises TargetNotReached where all are."""
     try:
         runs.cost(sizes)
@@ -170,9 +175,9 @@ def _within_limits(runs: TrialRuns, sizes: Sizes) -> Sizes:
     return sizes
 
 
-def round_steps(steps: float) -> int:
-    """A number of steps in a mesh cycle from this on."""
-    return max(ROUND_STEPS * ceil(steps / ROUND_STEPS - 1e-9), ROUND_STEPS)
+def round_steps(steps: float, unit: int) -> int:
+    """A number of steps in a mesh cycle from this on, a multiple of the unit."""
+    return max(unit * ceil(steps / unit - 1e-9), unit)
 
 
 def errors_at(tried: Sizes, errors: Errors, sizes: Sizes) -> Errors:
@@ -185,7 +190,7 @@ def errors_at(tried: Sizes, errors: Errors, sizes: Sizes) -> Errors:
     return {name: error * ratios[name] ** EXPECTED_ORDER for name, error in errors.items()}
 
 
-def _cheapest(runs: TrialRuns, tried: Sizes, errors: Errors, target: float) -> Sizes:
+def _cheapest(runs: Trials, tried: Sizes, errors: Errors, target: float) -> Sizes:
     """The cheapest sizes; raises TargetNotReached with the target that can be reached instead."""
     try:
         return search(runs, tried, errors, target)
@@ -198,7 +203,7 @@ def _cheapest(runs: TrialRuns, tried: Sizes, errors: Errors, target: float) -> S
         raise TargetNotReached(f"{reason}; {reachable}") from None
 
 
-def search(runs: TrialRuns, tried: Sizes, errors: Errors, target: float) -> Sizes:
+def search(runs: Trials, tried: Sizes, errors: Errors, target: float) -> Sizes:
     """The sizes of about least cost within the limits, mesh and steps not coarser than those tried, slices than half of
     them; raises TargetNotReached.
 
@@ -218,7 +223,7 @@ def search(runs: TrialRuns, tried: Sizes, errors: Errors, target: float) -> Size
     while left > 0.0:
         best = None
         refused = ""
-        for finer in _finer(sizes, errors):
+        for finer in _finer(sizes, errors, runs.step_unit):
             try:
                 cost = runs.cost(finer)
             except TargetNotReached as reason:
@@ -232,7 +237,7 @@ def search(runs: TrialRuns, tried: Sizes, errors: Errors, target: float) -> Size
         _, least, sizes = best
         left = excess(sizes)
     while True:
-        allowed = [each for each in _coarser(sizes, coarsest) if not excess(each)]
+        allowed = [each for each in _coarser(sizes, coarsest, runs.step_unit) if not excess(each)]
         cost, _, cheaper = min(
             ((runs.cost(each), place, each) for place, each in enumerate(allowed)), default=(least, 0, sizes)
         )
@@ -242,19 +247,19 @@ def search(runs: TrialRuns, tried: Sizes, errors: Errors, target: float) -> Size
         sizes = cheaper
 
 
-def _finer(sizes: Sizes, errors: Errors) -> list[Sizes]:
+def _finer(sizes: Sizes, errors: Errors, step_unit: int) -> list[Sizes]:
     finer = {
         MESH: replace(sizes, mesh=sizes.mesh / RATIO),
-        STEPS: replace(sizes, steps=round_steps(RATIO * sizes.steps)),
+        STEPS: replace(sizes, steps=round_steps(RATIO * sizes.steps, step_unit)),
         SLICES: replace(sizes, slices=sizes.slices + 2),
     }
     return [finer[name] for name in errors]
 
 
-def _coarser(sizes: Sizes, coarsest: Sizes) -> list[Sizes]:
+def _coarser(sizes: Sizes, coarsest: Sizes, step_unit: int) -> list[Sizes]:
     coarser = [
         replace(sizes, mesh=min(RATIO * sizes.mesh, coarsest.mesh)),
-        replace(sizes, steps=max(sizes.steps - ROUND_STEPS, coarsest.steps)),
+        replace(sizes, steps=max(sizes.steps - step_unit, coarsest.steps)),
         replace(sizes, slices=max(sizes.slices - 2, coarsest.slices)),
     ]
     return [each for each in coarser if each != sizes]

@@ -12,7 +12,7 @@ from fenics_gears import SceneError, model_of, scene_from_text, simulate
 from fenics_gears.commands.cli import main
 from fenics_gears.effects import SECTIONS
 from fenics_gears.extensions.measuring.effect_costs import measured, table
-from fenics_gears.extensions.measuring.effect_costs.subsets import ALONE, BARE, LEFT_OUT, subsets_of
+from fenics_gears.extensions.measuring.effect_costs.subsets import ALONE, BARE, LEFT_OUT, EffectsOfPair, subsets_of
 from fenics_gears.runs import one_run
 from fenics_gears.simulation.simulate import solved
 
@@ -21,7 +21,7 @@ PAPER = (TEETH, "shafts", "bearings", "inertia", "damping", "friction")
 
 
 def subsets(scene):
-    return {subset.name: subset for subset in subsets_of(scene)[0]}
+    return {subset.name: subset for subset in subsets_of(EffectsOfPair(scene))[0]}
 
 
 def test_the_papers_scene_is_run_bare_with_each_effect_and_without_each():
@@ -58,7 +58,7 @@ def test_the_scenes_own_rules_decide_what_a_subset_may_be():
 def test_a_subset_that_no_neighbour_makes_valid_is_skipped_with_the_rules_reason():
     """The rule of [coast_flanks]."""
     text = text_of(TEETH, "shafts", "coast_flanks").replace('"437 N m"', '"-437 N m"')
-    run, skipped = subsets_of(scene_from_text(text))
+    run, skipped = subsets_of(EffectsOfPair(scene_from_text(text)))
     assert {subset.name for subset in run} == {"+ coast_flanks", "all - tooth_elasticity", "all"}
     assert {each.name for each in skipped} == {"rigid flanks, no effect", "bare", "all - coast_flanks"}
     assert all("is negative" in each.reason for each in skipped)
@@ -115,7 +115,7 @@ def test_all_accuracy_is_that_of_the_whole_scene():
     # What these leave out is the same in every scene of the same gears.
     alike = ("body_element_size", "interpolation", "elastic_teeth", "model", "target", "slices", "layers")
     assert None not in [value for name, value in vars(scene.accuracy).items() if name not in alike]
-    assert {subset.scene.accuracy for subset in subsets_of(scene)[0]} == {scene.accuracy}
+    assert {subset.scene.accuracy for subset in subsets_of(EffectsOfPair(scene))[0]} == {scene.accuracy}
 
 
 def test_remeshing_at_every_step_is_refused_with_the_remedy():

@@ -6,27 +6,25 @@ from types import SimpleNamespace
 
 import pytest
 
-from fenics_gears.runs.settings.target import (
-    RATIO,
+from fenics_gears.runs.settings.target import RATIO, _chosen, errors_at, even, first_sizes, round_steps, search
+from fenics_gears.runs.settings.trial_runs import (
+    FEWEST_STEPS,
+    MESH,
     ROUND_STEPS,
-    _chosen,
-    errors_at,
-    even,
-    first_sizes,
-    round_steps,
-    search,
+    SLICES,
+    STEPS,
+    Sizes,
+    TargetNotReached,
 )
-from fenics_gears.runs.settings.trial_runs import FEWEST_STEPS, MESH, SLICES, STEPS, Sizes, TargetNotReached
 
 TRIED = Sizes(2.0, 60)
-MODULE = 4.5
 
 
 class KnownRuns:
     """Errors `constants` times the square of the size, costs a power of both; sizes below `finest` are beyond the
     limits."""
 
-    fewest_steps, slices = FEWEST_STEPS, 0
+    fewest_steps, slices, step_unit = FEWEST_STEPS, 0, ROUND_STEPS
 
     def __init__(self, constants, powers=(2.0, 1.0), finest=0.0, order=2.0, steps_matter=True):
         self.constants, self.powers, self.finest, self.order = constants, powers, finest, order
@@ -67,7 +65,7 @@ def test_the_cheapest_sizes_are_lagranges(target, powers):
 def test_errors_that_do_not_fall_are_refused():
     """An error of order 0."""
     with pytest.raises(TargetNotReached, match="do not fall"):
-        _chosen(KnownRuns((0.1, 0.1), order=0.0), MODULE, 0.002)
+        _chosen(KnownRuns((0.1, 0.1), order=0.0), 0.002)
 
 
 def test_sizes_beyond_the_limits_are_not_chosen_and_the_reachable_target_is_named():
@@ -75,10 +73,10 @@ def test_sizes_beyond_the_limits_are_not_chosen_and_the_reachable_target_is_name
     runs = KnownRuns((0.01, 0.0), finest=0.99, steps_matter=False)
     assert search(runs, TRIED, {MESH: 0.04}, 0.011).mesh >= 0.99
     with pytest.raises(TargetNotReached, match=r"^too fine; 1 % can be reached$"):
-        _chosen(runs, MODULE, 0.002)
+        _chosen(runs, 0.002)
     runs.finest = 100.0
     with pytest.raises(TargetNotReached, match="^too fine$"):
-        _chosen(runs, MODULE, 0.002)
+        _chosen(runs, 0.002)
 
 
 @pytest.mark.parametrize("target", [0.5, 0.05, 0.01, 0.002, 0.0005])
@@ -86,7 +84,7 @@ def test_first_sizes_go_with_the_root_of_the_target(target):
     """Order 2; halves of the steps are whole numbers."""
     sizes, coarser = (first_sizes(each, KnownRuns((0.0, 0.0))) for each in (target, 4.0 * target))
     assert coarser.mesh <= 2.0 * sizes.mesh * (1.0 + 1e-12) and sizes.steps <= 2 * coarser.steps
-    assert sizes.steps % ROUND_STEPS == 0 and sizes.steps >= FEWEST_STEPS and round_steps(1) == ROUND_STEPS
+    assert sizes.steps % ROUND_STEPS == 0 and sizes.steps >= FEWEST_STEPS and round_steps(1, ROUND_STEPS) == ROUND_STEPS
 
 
 class KnownRunsOverFace(KnownRuns):

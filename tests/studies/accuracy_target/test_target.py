@@ -109,7 +109,7 @@ def test_what_two_runs_do_not_both_have_is_not_judged(scene, monkeypatch, finer,
     with_span = {
         mesh: same | {name: np.array([each]) for name, each in found.items()} for mesh, found in answers.items()
     }
-    monkeypatch.setattr(runs, "_answer", lambda sizes: with_span[sizes.mesh])
+    monkeypatch.setattr(runs, "_answered", lambda sizes: (with_span[sizes.mesh],))
     with pytest.raises(TargetNotReached, match="do not both have the face load factor: .* Raise the load"):
         runs._error(Sizes(1.0, 40), Sizes(2.0, 40))
 

@@ -13,7 +13,7 @@ from fenics_gears.measuring import EVERY_STEP, Cycle, Model, compile_kernels, co
 from fenics_gears.shown import largest_normal_force
 
 from ..machine import machine
-from .subsets import ALL, ALONE, BARE, LEFT_OUT, Skipped, Subset, subsets_of
+from .subsets import ALL, ALONE, BARE, LEFT_OUT, EffectsOfPair, Skipped, Subset, subsets_of
 
 ROUNDS = 5
 TIMED_STEPS = 1000
@@ -97,7 +97,7 @@ def measure(scene: Scene, progress: Progress | None = None, rounds: int = ROUNDS
     subset runs."""
     progress = progress or SilentProgress()
     scene = at_one_accuracy(scene)
-    subsets, skipped = subsets_of(scene)
+    subsets, skipped = subsets_of(EffectsOfPair(scene))
     progress.stage("compile")
     for tangential in (False, True):
         compile_kernels(tangential, progress=progress)

@@ -5,6 +5,7 @@ import functools
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from itertools import combinations
+from typing import Any
 
 from fenics_gears import Scene
 from fenics_gears.many_runs import effects_on
@@ -37,7 +38,7 @@ class Subset:
     kind: str
     effect: str
     sections: Sections
-    scene: Scene
+    scene: Any
     beside: tuple[str, ...] = ()
 
     @property
@@ -63,50 +64,76 @@ class Skipped:
     reason: str
 
 
-def subsets_of(scene: Scene) -> tuple[list[Subset], list[Skipped]]:
-    """The subsets of a scene's effects that are run, and those that make no scene; no set of effects comes twice. The
+class EffectsOfPair:
+    """What the subsets of a scene's effects are made of: `every` effect that it has, and the `base` of all others. The
     scene must have been read from its text: the rules between sections are the text's."""
-    every = frozenset(each.section for each in effects_on(scene))
-    base = every & {BASE}
-    problem = functools.cache(functools.partial(_problem, scene))
+
+    def __init__(self, scene: Scene):
+        self.scene = scene
+        self.every: Sections = frozenset(each.section for each in effects_on(scene))
+        self.base: Sections = self.every & {BASE}
+        self.problem: Valid = functools.cache(functools.partial(_problem, scene))
+
+    def in_order(self, sections: Iterable[str]) -> list[str]:
+        return [each for each in SECTIONS if each in sections]
+
+    def needs(self, name: str) -> Iterable[str]:
+        """The effects without which an effect is none."""
+        return effect_named(name).needs
+
+    def of(self, sections: Sections) -> Scene:
+        """The scene with only those effects."""
+        return without(self.scene, *self.in_order(self.every - sections))
+
+    def parts(self, whole: Scene) -> Iterator[tuple[str, Scene]]:
+        """Parts of effects in words, and the scene without each."""
+        return _without_parts(whole)
+
+
+def subsets_of(effects: Any) -> tuple[list[Subset], list[Skipped]]:
+    """The subsets of effects (`EffectsOfPair`, or of a train) that are run, and those that make no scene; no set of
+    effects comes twice."""
+    every = effects.every
+    base = effects.base
     # A set with several names keeps the first one here.
     wanted: list[tuple[str, str, Sections | None]] = [(ALL, "", every), (BARE, "", base)]
     if base:
         wanted.insert(1, (NOTHING, "", frozenset()))
-    wanted += [(ALONE, each, smallest_valid(base | {each}, every, problem)) for each in in_order(every - base)]
-    wanted += [(LEFT_OUT, each, largest_valid(every - {each}, problem)) for each in in_order(every)]
+    wanted += [(ALONE, each, smallest_valid(base | {each}, effects)) for each in effects.in_order(every - base)]
+    wanted += [(LEFT_OUT, each, largest_valid(every - {each}, effects)) for each in effects.in_order(every)]
     subsets: dict[Sections, Subset] = {}
     skipped = []
     for kind, name, sections in wanted:
-        if sections is None or problem(sections):
-            asked = sections if sections is not None else every - {name} if kind == LEFT_OUT else every & {BASE, name}
-            skipped.append(Skipped(Subset(kind, name, asked, scene).name, problem(asked)))
+        if sections is None or effects.problem(sections):
+            asked = sections if sections is not None else every - {name} if kind == LEFT_OUT else base | {name}
+            skipped.append(Skipped(Subset(kind, name, asked, effects.scene).name, effects.problem(asked)))
         elif sections not in subsets:
             left = every - sections
-            beside = {ALONE: sections - {BASE, name}, LEFT_OUT: left - {name}}.get(kind, ())
-            less = without(scene, *in_order(left))
-            subsets[sections] = Subset(kind, name, sections, less, tuple(in_order(beside)))
+            beside = {ALONE: sections - {*base, name}, LEFT_OUT: left - {name}}.get(kind, ())
+            subsets[sections] = Subset(kind, name, sections, effects.of(sections), tuple(effects.in_order(beside)))
     whole, *others = subsets.values()
-    parts = [Subset(LEFT_OUT, name, whole.sections, less) for name, less in _without_parts(whole.scene)]
+    parts = [Subset(LEFT_OUT, name, whole.sections, less) for name, less in effects.parts(whole.scene)]
     return [*others, *parts, whole], skipped
 
 
-def smallest_valid(wanted: Sections, every: Sections, problem: Valid) -> Sections | None:
-    """The smallest valid set of effects that holds the `wanted` ones, among `every`; None where there is none near."""
+def smallest_valid(wanted: Sections, effects: Any) -> Sections | None:
+    """The smallest valid set of effects that holds the `wanted` ones; None where there is none near."""
     closed = wanted
-    while missing := {need for each in closed for need in effect_named(each).needs if need in every} - closed:
+    while missing := {need for each in closed for need in effects.needs(each) if need in effects.every} - closed:
         closed = closed | missing
-    further = in_order(every - closed)
+    further = effects.in_order(effects.every - closed)
     candidates = (closed | set(added) for count in range(MOST_FURTHER + 1) for added in combinations(further, count))
-    return next((each for each in candidates if not problem(each)), None)
+    return next((each for each in candidates if not effects.problem(each)), None)
 
 
-def largest_valid(left: Sections, problem: Valid) -> Sections | None:
+def largest_valid(left: Sections, effects: Any) -> Sections | None:
     """The largest valid set of effects within those that are `left`; None where there is none near."""
-    while lost := {each for each in left if not set(effect_named(each).needs) <= left}:
+    while lost := {each for each in left if not set(effects.needs(each)) <= left}:
         left = left - lost
-    candidates = (left - set(gone) for count in range(MOST_FURTHER + 1) for gone in combinations(in_order(left), count))
-    return next((each for each in candidates if not problem(each)), None)
+    candidates = (
+        left - set(gone) for count in range(MOST_FURTHER + 1) for gone in combinations(effects.in_order(left), count)
+    )
+    return next((each for each in candidates if not effects.problem(each)), None)
 
 
 def _problem(scene: Scene, sections: Sections) -> str:
@@ -121,10 +148,6 @@ def _problem(scene: Scene, sections: Sections) -> str:
         for name in ("slices", "layers"):
             tree.get("accuracy", {}).pop(name, None)
     return "; ".join(f"{'.'.join(problem.path)}: {problem.message}" for problem in broken_rules(tree))
-
-
-def in_order(sections: Iterable[str]) -> list[str]:
-    return [each for each in SECTIONS if each in sections]
 
 
 def _without_parts(scene: Scene) -> Iterator[tuple[str, Scene]]:
