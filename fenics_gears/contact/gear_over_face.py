@@ -8,8 +8,9 @@ by contact nodes along their directions.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import permutations
+from typing import NamedTuple
 
 import numpy as np
 from scipy import sparse
@@ -23,7 +24,7 @@ from .face import Face
 from .face_pairing import FacePair, contact_axes, rises_of
 from .fine_sections import together
 from .idler import Part
-from .joined_rows import Coupling, OnBody
+from .joined_rows import Coupling
 from .mesh_cycle import Cycle
 
 
@@ -46,6 +47,27 @@ class MeshOfGear:
         return tooth if self.counted is None else self.counted.flank(1, (tooth, 0))[0]
 
 
+class OnBody(NamedTuple):
+    """Contact nodes (n,) of a mesh on a gear: how motions of its body move them (d, n, r), along directions; its
+    `teeth` there, (T,), and the place among these of that on which each node is."""
+
+    moved: np.ndarray
+    teeth: np.ndarray
+    tooth: np.ndarray
+
+    def by(self, motions: np.ndarray) -> np.ndarray:
+        """How joint motions of its teeth (T, r, s) move the nodes, (d, n, s)."""
+        found = np.empty((*self.moved.shape[:2], motions.shape[2]))
+        for number, of_tooth in enumerate(motions):
+            nodes = np.flatnonzero(self.tooth == number)
+            found[:, nodes] = self.moved[:, nodes] @ of_tooth
+        return found
+
+
+# Of the largest, singular values of what meshes feel of each other that are left out.
+LEAST_SHARED = 1e-8
+
+
 @dataclass(frozen=True, eq=False)
 class GearOverFace:
     """A gear of so many `teeth` in several `meshes`, what is `between` its flanks, and in slices the `motions`
@@ -55,6 +77,8 @@ class GearOverFace:
     meshes: tuple[MeshOfGear, ...]
     between: BetweenMates
     motions: tuple[np.ndarray, ...]
+    # By the teeth of all meshes that touch, joint motions of these.
+    _shared: dict[tuple[tuple[int, ...], ...], tuple] = field(default_factory=dict)
 
     def couplings(
         self, cycles: Sequence[Cycle], parts: Sequence[Part], steps: float
@@ -105,13 +129,48 @@ class GearOverFace:
         return found
 
     def _coupled(self, rows: list[OnBody], columns: list[OnBody]) -> list[Coupling]:
-        """Each two meshes of the gear, one by forces on the other."""
-        found = []
-        for (mesh, own), (loaded, _) in permutations(zip(self.meshes, rows), 2):
-            other = columns[self.meshes.index(loaded)]
-            between = self.response((mesh.kind, loaded.kind), own.teeth, other.teeth)
-            found.append(Coupling(mesh.number, loaded.number, own, other, between))
-        return found
+        """Each two meshes of the gear, one by forces on the other, by the joint motions of their teeth that matter."""
+        teeth = tuple(tuple(each.teeth.tolist()) for each in (*rows, *columns))
+        if teeth not in self._shared:
+            self._shared[teeth] = self._shared_motions(rows, columns)
+        motions, motions_of_loaded, between = self._shared[teeth]
+        moved = [each.by(own) for each, own in zip(rows, motions)]
+        same = rows is columns
+        moved_of_loaded = moved if same else [each.by(own) for each, own in zip(columns, motions_of_loaded)]
+        return [
+            Coupling(self.meshes[one].number, self.meshes[other].number, moved[one], moved_of_loaded[other], each)
+            for (one, other), each in between.items()
+        ]
+
+    def _shared_motions(
+        self, rows: list[OnBody], columns: list[OnBody]
+    ) -> tuple[list[np.ndarray], list[np.ndarray], dict[tuple[int, int], np.ndarray]]:
+        """Joint motions (T, r, s) of the teeth of each mesh that others feel, as it responds and as it is loaded; and
+        by two meshes what is between those, (s, s')."""
+        pairs = list(permutations(range(len(self.meshes)), 2))
+        known = {}
+        for one, other in pairs:
+            kinds = self.meshes[one].kind, self.meshes[other].kind
+            found = self.response(kinds, rows[one].teeth, columns[other].teeth)
+            known[one, other] = found.transpose(0, 2, 1, 3).reshape(found.shape[0] * found.shape[2], -1)
+        numbers = range(len(self.meshes))
+        own = [_felt([known[pair] for pair in pairs if pair[0] == each]) for each in numbers]
+        loaded = own
+        if rows is not columns:
+            loaded = [_felt([known[pair].T for pair in pairs if pair[1] == each]) for each in numbers]
+        between = {(one, other): own[one].T @ known[one, other] @ loaded[other] for one, other in pairs}
+        return _by_teeth(own, rows), _by_teeth(loaded, columns), between
+
+
+def _by_teeth(motions: list[np.ndarray], seen: list[OnBody]) -> list[np.ndarray]:
+    """Joint motions of the teeth of each mesh, (T, r, s)."""
+    return [each.reshape(len(on.teeth), on.moved.shape[2], each.shape[1]) for each, on in zip(motions, seen)]
+
+
+def _felt(blocks: list[np.ndarray]) -> np.ndarray:
+    """Orthonormal motions (T r, s) of a mesh of which its response (T r, U r') to each other mesh is made."""
+    found, sizes, _ = np.linalg.svd(np.hstack(blocks), full_matrices=False)
+    return np.ascontiguousarray(found[:, sizes > LEAST_SHARED * sizes.max(initial=0.0)])
 
 
 def gear_over_face(

@@ -107,6 +107,12 @@ class JoinedPosition(Position):
 
     of_meshes: tuple[tuple[Position, int], ...] = ()
 
+    @property
+    def bytes(self) -> int:
+        # Without friction over the face meshes are solved one by one, and all together have no operators.
+        alone = self.operator.rigid_slip is None and self.operator.stored.address
+        return sum(each.bytes for each, _ in self.of_meshes) if alone else super().bytes
+
 
 class RowCycle(Cycle):
     """Contact equations of all `meshes` of a train, whose steps are of one length in time."""
@@ -144,12 +150,14 @@ class RowCycle(Cycle):
         for a block of steps alone where each position of them is passed `once`. Meshes pass theirs more often."""
         count = len(self.meshes)
         # Operators grow with the square of their nodes, and those of all meshes have count times as many; how these
-        # feel each other takes as much as each by itself.
-        self.kept = Kept(memory * count / (count + 2))
+        # feel each other takes as much as each by itself. Meshes that are solved one by one are all that there is.
+        alone = not self.tangential and len(self.face.widths) > 1
+        together = 1.0 if alone else count
+        self.kept = Kept(memory * together / (together + 2))
         self._keeps = not once
-        self._compliance.kept = Kept(memory / (count + 2))
+        self._compliance.kept = Kept(memory / (together + 2))
         for each in self.meshes:
-            each.cycle.kept = Kept(memory / (count * (count + 2)))
+            each.cycle.kept = Kept(memory / (count * (together + 2)))
 
     def position(self, step: int) -> JoinedPosition:
         return self._deviated(step, self._alike(step))

@@ -1,0 +1,250 @@
+"""The mixed form of meshes that move together over the face, without friction, mesh by mesh: no compliance between all
+contact nodes is formed.
+
+With C_m of each mesh by itself, and Phi_s how the motions of the body on one of its sides s, a gear that other meshes
+load too, move its nodes, the forces p_m on its closed nodes follow from
+
+    C_m p_m = G_m q - g_m - sum_s Phi_s v_s,    v_s = sum_t H_st Phi_t^T p_t,    K q + sum_m G_m^T p_m = F
+
+v_s being what forces on the other sides t of that gear displace. Each C_m is factored by itself, and its factors last
+until its own sets change; meshes that pass the same places share them. Equations for v and q are left. Gears have to do
+with each other through common meshes alone, so that v is eliminated gear by gear, planets and idlers before those of
+more meshes.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+from typing import NamedTuple
+
+import numpy as np
+from numba import carray, cfunc, njit
+
+from .addresses import ROOM, form_rows, solver_of, to_integer, to_number
+from .factored_compliance import GETRS, Factored, System, has_factors, put_solutions
+from .joined_table import (
+    COUNT,
+    FIRST,
+    GEAR,
+    LOADED,
+    MOTIONS,
+    MOTIONS_OF_LOADED,
+    PART,
+    SIDE,
+    SIDE_OF_LOADED,
+    TABLE,
+    between_motions,
+    moved_by,
+    own_compliance,
+    tables_of,
+)
+from .mixed_form import put_solution, system_of
+
+
+class _Border(NamedTuple):
+    """Unknowns v and q: `places` (sides,) of the motions of each side among them, how many v there are, and where those
+    of each gear end.
+
+    Of each part: `counts` (p,) of the unknowns that it has to do with, their `numbers` (p, c), and `sums` (p, c + 1,
+    c + 1) of what moves its closed nodes times the forces that this takes, N/mm, the gaps last.
+    """
+
+    places: np.ndarray
+    motions: int
+    ends: np.ndarray
+    counts: np.ndarray
+    numbers: np.ndarray
+    sums: np.ndarray
+
+
+@cache
+def joined_solver():
+    """The C function behind `mixed_form.solve_factored` of meshes together."""
+    return cfunc("int64(int64)", cache=True, error_model="numpy")(_solve)
+
+
+def _solve(address):
+    """Returns 1, or 0 where a compliance is not safely regular or the drivetrain is loose."""
+    at = carray(to_integer(address), 14)
+    tables, m, k, size = tables_of(at[0]), at[1], at[2], at[3]
+    rows, opening = carray(to_integer(at[9]), size), carray(to_number(at[11]), size)
+    jacobian, result = carray(to_number(at[6]), (m, k)), carray(to_number(at[12]), m + k)
+    stiffness, load = carray(to_number(at[7]), (k, k)), carray(to_number(at[8]), k)
+    ends = np.searchsorted(rows, np.append(tables.parts[:, FIRST], m))
+    border = _border(tables, k)
+    solutions = np.empty((border.sums.shape[1], size))
+    unit = 1.0 / own_compliance(tables.parts[0])[0, 0]
+    for number in range(len(tables.parts)):
+        own = slice(ends[number], ends[number + 1])
+        if not _put_part(tables, number, border, (rows[own], opening[own], jacobian), solutions[:, own]):
+            return 0
+    matrix = _put_border(tables, border, stiffness, load, unit)
+    if not _eliminate(matrix, border, k):
+        return 0
+    unknowns = matrix[:, -1].copy()
+    result[:m], result[m:] = 0.0, unknowns[border.motions :]
+    unknowns[: border.motions] *= -1.0
+    for number in range(len(tables.parts)):
+        count = border.counts[number]
+        weights = np.append(unknowns[border.numbers[number, :count]], -1.0)
+        for a in range(ends[number], ends[number + 1]):
+            for j in range(count + 1):
+                result[rows[a]] += weights[j] * solutions[j, a]
+    return 1
+
+
+@njit(cache=True)
+def _border(tables, k):
+    """Room for the border."""
+    sides, parts = tables.sides, tables.parts
+    ends = np.cumsum(sides[:, MOTIONS])
+    of_gears = np.zeros(1 + (sides[:, GEAR].max() if len(sides) else 0), dtype=np.int64)
+    counts = np.full(len(parts), k)
+    for side, end in zip(sides, ends):
+        counts[side[PART]] += side[MOTIONS]
+        of_gears[side[GEAR]] = end
+    most = counts.max()
+    sums = np.empty((len(parts), most + 1, most + 1))
+    motions = ends[-1] if len(sides) else 0
+    return _Border(
+        ends - sides[:, MOTIONS], motions, of_gears, counts, np.empty((len(parts), most), dtype=np.int64), sums
+    )
+
+
+@njit(cache=True)
+def _put_part(tables, number, border, closed, solutions):
+    """Put what a part adds to the border into place, and the forces (c + 1, a) on its closed nodes for each of its
+    unknowns; `closed`: rows and openings of these, and the jacobian of all. Returns whether its compliance is safely
+    regular."""
+    part, (rows, opening, jacobian) = tables.parts[number], closed
+    size, count = len(rows), 0
+    moving = np.empty((border.counts[number] + 1, size))
+    for c in range(jacobian.shape[1]):
+        moves = False
+        for a in range(size):
+            moving[count, a] = jacobian[rows[a], c]
+            moves = moves or moving[count, a] != 0.0
+        if moves:
+            border.numbers[number, count] = border.motions + c
+            count += 1
+    for side, place in zip(tables.sides, border.places):
+        if side[PART] == number:
+            moved = moved_by(side, part[COUNT])
+            for motion in range(side[MOTIONS]):
+                border.numbers[number, count] = place + motion
+                for a in range(size):
+                    moving[count, a] = moved[rows[a] - part[FIRST], motion]
+                count += 1
+    border.counts[number] = count
+    if size == 0:
+        border.sums[number] = 0.0
+        return True
+    moving[count] = opening
+    forces = moving[: count + 1].copy()
+    if not _put_forces(forces, part, rows - part[FIRST], opening, jacobian):
+        return False
+    border.sums[number, : count + 1, : count + 1] = np.dot(moving[: count + 1], forces.T)
+    solutions[: count + 1] = forces
+    return True
+
+
+@njit(cache=True)
+def _put_forces(forces, part, own, opening, jacobian):
+    """Put the forces (c, a) that displace some nodes of a part so into place; returns whether its compliance is safely
+    regular."""
+    form_rows(part[TABLE], own)
+    compliance, nothing = own_compliance(part), np.empty(0)
+    unit, table = 1.0 / compliance[0, 0], carray(to_integer(solver_of(part[TABLE])[1]), GETRS + 1)
+    system = System(compliance, jacobian, jacobian, opening, own, nothing, opening, unit)
+    matrix = carray(to_number(table[ROOM]), (len(own), len(own)))
+    factored = Factored(matrix, own, nothing, forces, forces, table)
+    if not has_factors(factored, system):
+        return False
+    put_solutions(factored, forces, False)
+    forces *= unit
+    return True
+
+
+@njit(cache=True)
+def _put_border(tables, border, stiffness, load, unit):
+    """The equations for v and q, forces in `unit` N/mm, right side last."""
+    motions, k = border.motions, len(load)
+    matrix = np.zeros((motions + k, motions + k + 1))
+    for v in range(motions):
+        matrix[v, v] = 1.0
+    matrix[motions:, motions:-1] = stiffness / unit
+    matrix[motions:, -1] = load / unit
+    for number in range(len(tables.parts)):
+        for j in range(border.counts[number]):
+            if border.numbers[number, j] >= motions:
+                _add_sums(matrix, border, number, border.numbers[number, j], border.sums[number, j], 1.0 / unit)
+    for coupling in tables.couplings:
+        _couple(matrix, border, coupling)
+    return matrix
+
+
+@njit(cache=True)
+def _add_sums(matrix, border, number, row, sums, weight):
+    """Add what forces of a part do, by the unknowns that they follow from, times a weight to a row of the border."""
+    count = border.counts[number]
+    for j in range(count):
+        unknown = border.numbers[number, j]
+        matrix[row, unknown] += weight * sums[j] if unknown >= border.motions else -weight * sums[j]
+    matrix[row, -1] += weight * sums[count]
+
+
+@njit(cache=True)
+def _couple(matrix, border, coupling):
+    """Subtract what forces of the part that is loaded displace on the side that responds."""
+    number, loaded = coupling[LOADED], border.places[coupling[SIDE_OF_LOADED]]
+    count, numbers, first = border.counts[number], border.numbers[number], 0
+    # Its unknowns stand one after the other.
+    while numbers[first] != loaded:
+        first += 1
+    sums = border.sums[number, first : first + coupling[MOTIONS_OF_LOADED], : count + 1]
+    moved = np.dot(between_motions(coupling), np.ascontiguousarray(sums))
+    for motion in range(coupling[MOTIONS]):
+        _add_sums(matrix, border, number, border.places[coupling[SIDE]] + motion, moved[motion], -1.0)
+
+
+@njit(cache=True)
+def _eliminate(matrix, border, k):
+    """Put the unknowns into the last column of the border; returns whether there are any."""
+    begin = 0
+    for end in border.ends:
+        if end > begin:
+            _eliminate_gear(matrix, begin, end)
+        begin = max(begin, end)
+    left, found = system_of(k), matrix[begin:, -1].copy()
+    left[:, :k] = matrix[begin:, begin:-1]
+    if not put_solution(left, found, np.int64(0)):
+        return False
+    matrix[begin:, -1] = found
+    ends = border.ends
+    for gear in range(len(ends) - 1, -1, -1):
+        first, end = ends[gear - 1] if gear else 0, ends[gear]
+        for v in range(first, end):
+            for other in range(end, len(matrix)):
+                matrix[v, -1] -= matrix[v, other] * matrix[other, -1]
+    return True
+
+
+@njit(cache=True)
+def _eliminate_gear(matrix, begin, end):
+    """Eliminate the unknowns from `begin` to `end`, which have to do with few of those after them."""
+    last = matrix.shape[1] - 1
+    columns = np.array([c for c in range(end, last + 1) if c == last or matrix[begin:end, c].any()])
+    rows = np.array([r for r in range(end, len(matrix)) if matrix[r, begin:end].any()])
+    sides = np.empty((end - begin, len(columns)))
+    for j in range(len(columns)):
+        sides[:, j] = matrix[begin:end, columns[j]]
+    sides = np.linalg.solve(matrix[begin:end, begin:end].copy(), sides)
+    for j in range(len(columns)):
+        matrix[begin:end, columns[j]] = sides[:, j]
+    factors = np.empty((len(rows), end - begin))
+    for i in range(len(rows)):
+        factors[i] = matrix[rows[i], begin:end]
+    changes = np.dot(factors, sides)
+    for i in range(len(rows)):
+        for j in range(len(columns)):
+            matrix[rows[i], columns[j]] -= changes[i, j]
