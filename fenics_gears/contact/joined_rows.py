@@ -24,6 +24,7 @@ from .joined_table import (
     COUNT,
     COUNT_OF_COLUMNS,
     COUPLINGS,
+    FACTORS,
     FIRST,
     FIRST_COLUMN,
     FORMED,
@@ -35,8 +36,10 @@ from .joined_table import (
     MOTIONS_OF_LOADED,
     MOVED,
     MOVED_OF_LOADED,
+    MOVES,
     NUMBERS,
     OWN,
+    PART,
     PARTS,
     RESPONDING,
     ROWS,
@@ -115,8 +118,6 @@ def joined_rows(
         own = part.rows.address, part.rows.matrix.ctypes.data
         row[:6] = *own, part.first, counts[0], part.first_column, counts[1]
         held += [*part.rows.arrays, part.rows.table]
-        if part.rows.factors is not None:
-            held += [*part.rows.factors.arrays, part.rows.factors.table]
     for row, each in zip(table[1 + len(parts) :], couplings):
         row[:2] = each[:2]
         row[MOVED : BETWEEN + 1] = [array.ctypes.data for array in each[2:]]
@@ -127,9 +128,24 @@ def joined_rows(
             table[place] = row
             table[place, :2] = each.responding, sides[row[SIDE]]
         held += each[2:]
+    if by_mesh:
+        held += _room_for_factors(table, len(parts))
     # Nodes of a mesh are in several couplings.
     arrays = list({id(each): each for each in held}.values())
     return FormedRows(matrix, formed, by_columns, table, arrays, factors)
+
+
+def _room_for_factors(table: np.ndarray, parts: int) -> list[np.ndarray]:
+    """Room of each part for what lasts until its sets change: meshes that share rows may be solved at the same time."""
+    held = []
+    sides = table[1 + parts + table[0, COUPLINGS] :]
+    for number, row in enumerate(table[1 : 1 + parts]):
+        factors = Factors(int(row[COUNT]), 0)
+        motions = int(sides[sides[:, PART] == number, MOTIONS].sum())
+        lasting = pages(2 * motions, int(row[COUNT]))
+        row[FACTORS : MOVES + 1] = factors.table.ctypes.data, lasting.ctypes.data, motions
+        held += [*factors.arrays, factors.table, lasting]
+    return held
 
 
 def _sides(couplings: Sequence[Coupling]) -> tuple[list[int], dict[int, int]]:

@@ -7,7 +7,7 @@ load too, move its nodes, the forces p_m on its closed nodes follow from
     C_m p_m = G_m q - g_m - sum_s Phi_s v_s,    v_s = sum_t H_st Phi_t^T p_t,    K q + sum_m G_m^T p_m = F
 
 v_s being what forces on the other sides t of that gear displace. Each C_m is factored by itself, and its factors last
-until its own sets change; meshes that pass the same places share them. Equations for v and q are left. Gears have to do
+with C_m^-1 Phi_s until its own sets change. Equations for v and q are left. Gears have to do
 with each other through common meshes alone, so that v is eliminated gear by gear, planets and idlers before those of
 more meshes.
 """
@@ -20,15 +20,18 @@ from typing import NamedTuple
 import numpy as np
 from numba import carray, cfunc, njit
 
-from .addresses import ROOM, form_rows, solver_of, to_integer, to_number
+from .addresses import KNOWN, ROOM, form_rows, forces_at, to_integer, to_number
 from .factored_compliance import GETRS, Factored, System, has_factors, put_solutions
 from .joined_table import (
     COUNT,
+    FACTORS,
     FIRST,
     GEAR,
+    LASTING,
     LOADED,
     MOTIONS,
     MOTIONS_OF_LOADED,
+    MOVES,
     PART,
     SIDE,
     SIDE_OF_LOADED,
@@ -45,8 +48,8 @@ class _Border(NamedTuple):
     """Unknowns v and q: `places` (sides,) of the motions of each side among them, how many v there are, and where those
     of each gear end.
 
-    Of each part: `counts` (p,) of the unknowns that it has to do with, their `numbers` (p, c), and `sums` (p, c + 1,
-    c + 1) of what moves its closed nodes times the forces that this takes, N/mm, the gaps last.
+    Of each part: `counts` (p,) of the unknowns that it has to do with, motions first, their `numbers` (p, c), and
+    `sums` (p, c + 1, c + 1) of what moves its closed nodes times the forces that this takes, N/mm, the gaps last.
     """
 
     places: np.ndarray
@@ -87,28 +90,27 @@ def _solve(address):
     for number in range(len(tables.parts)):
         count = border.counts[number]
         weights = np.append(unknowns[border.numbers[number, :count]], -1.0)
-        for a in range(ends[number], ends[number + 1]):
-            for j in range(count + 1):
-                result[rows[a]] += weights[j] * solutions[j, a]
+        own = slice(ends[number], ends[number + 1])
+        result[rows[own]] = np.dot(weights, np.ascontiguousarray(solutions[: count + 1, own]))
     return 1
 
 
 @njit(cache=True)
 def _border(tables, k):
-    """Room for the border."""
+    """Room for the border, with the numbers of motions."""
     sides, parts = tables.sides, tables.parts
     ends = np.cumsum(sides[:, MOTIONS])
     of_gears = np.zeros(1 + (sides[:, GEAR].max() if len(sides) else 0), dtype=np.int64)
-    counts = np.full(len(parts), k)
+    counts = np.zeros(len(parts), dtype=np.int64)
+    numbers = np.empty((len(parts), k + parts[:, MOVES].max()), dtype=np.int64)
     for side, end in zip(sides, ends):
+        own = counts[side[PART]]
+        numbers[side[PART], own : own + side[MOTIONS]] = np.arange(end - side[MOTIONS], end)
         counts[side[PART]] += side[MOTIONS]
         of_gears[side[GEAR]] = end
-    most = counts.max()
-    sums = np.empty((len(parts), most + 1, most + 1))
+    most = 1 + numbers.shape[1]
     motions = ends[-1] if len(sides) else 0
-    return _Border(
-        ends - sides[:, MOTIONS], motions, of_gears, counts, np.empty((len(parts), most), dtype=np.int64), sums
-    )
+    return _Border(ends - sides[:, MOTIONS], motions, of_gears, counts, numbers, np.zeros((len(parts), most, most)))
 
 
 @njit(cache=True)
@@ -117,52 +119,61 @@ def _put_part(tables, number, border, closed, solutions):
     unknowns; `closed`: rows and openings of these, and the jacobian of all. Returns whether its compliance is safely
     regular."""
     part, (rows, opening, jacobian) = tables.parts[number], closed
-    size, count = len(rows), 0
-    moving = np.empty((border.counts[number] + 1, size))
-    for c in range(jacobian.shape[1]):
-        moves = False
-        for a in range(size):
-            moving[count, a] = jacobian[rows[a], c]
-            moves = moves or moving[count, a] != 0.0
-        if moves:
+    size, motions, own, count = len(rows), part[MOVES], rows - part[FIRST], border.counts[number]
+    for c in range(jacobian.shape[1] if size else 0):
+        if jacobian[rows, c].any():
             border.numbers[number, count] = border.motions + c
             count += 1
-    for side, place in zip(tables.sides, border.places):
-        if side[PART] == number:
-            moved = moved_by(side, part[COUNT])
-            for motion in range(side[MOTIONS]):
-                border.numbers[number, count] = place + motion
-                for a in range(size):
-                    moving[count, a] = moved[rows[a] - part[FIRST], motion]
-                count += 1
     border.counts[number] = count
     if size == 0:
-        border.sums[number] = 0.0
         return True
-    moving[count] = opening
-    forces = moving[: count + 1].copy()
-    if not _put_forces(forces, part, rows - part[FIRST], opening, jacobian):
+    moving, forces = np.empty((count + 1, size)), np.empty((count + 1, size))
+    if not _put_moved(tables, number, own, jacobian, moving[:motions], forces[:motions]):
         return False
-    border.sums[number, : count + 1, : count + 1] = np.dot(moving[: count + 1], forces.T)
-    solutions[: count + 1] = forces
+    for c in range(motions, count):
+        moving[c] = jacobian[rows, border.numbers[number, c] - border.motions]
+    moving[count] = opening
+    factored, system = _system_of(part, own, jacobian)
+    forces[motions:] = moving[motions:]
+    put_solutions(factored, forces[motions:], False)
+    border.sums[number, : count + 1, : count + 1] = system.unit * np.dot(moving, forces.T)
+    solutions[: count + 1] = forces * system.unit
     return True
 
 
 @njit(cache=True)
-def _put_forces(forces, part, own, opening, jacobian):
-    """Put the forces (c, a) that displace some nodes of a part so into place; returns whether its compliance is safely
-    regular."""
+def _put_moved(tables, number, own, jacobian, moving, forces):
+    """Put into place how the motions of a part's sides move some of its nodes, (c, a), and the forces that this takes,
+    which last as long as its factors; returns whether its compliance is safely regular."""
+    part, size = tables.parts[number], len(own)
+    factored, system = _system_of(part, own, jacobian)
+    kept = carray(to_number(part[LASTING]), (2, part[MOVES], part[COUNT]))
+    if np.array_equal(forces_at(factored.table[KNOWN])[1:], own):
+        moving[:], forces[:] = kept[0, :, :size], kept[1, :, :size]
+        return True
     form_rows(part[TABLE], own)
-    compliance, nothing = own_compliance(part), np.empty(0)
-    unit, table = 1.0 / compliance[0, 0], carray(to_integer(solver_of(part[TABLE])[1]), GETRS + 1)
-    system = System(compliance, jacobian, jacobian, opening, own, nothing, opening, unit)
-    matrix = carray(to_number(table[ROOM]), (len(own), len(own)))
-    factored = Factored(matrix, own, nothing, forces, forces, table)
     if not has_factors(factored, system):
         return False
+    first = 0
+    for side in tables.sides:
+        if side[PART] == number:
+            moved = moved_by(side, part[COUNT])
+            for a in range(size):
+                moving[first : first + side[MOTIONS], a] = moved[own[a]]
+            first += side[MOTIONS]
+    forces[:] = moving
     put_solutions(factored, forces, False)
-    forces *= unit
+    kept[0, :, :size], kept[1, :, :size] = moving, forces
     return True
+
+
+@njit(cache=True)
+def _system_of(part, own, jacobian):
+    """The compliance of some nodes of a part, and the room for its factors."""
+    size, nothing, compliance = len(own), np.empty(0), own_compliance(part)
+    table, lines = carray(to_integer(part[FACTORS]), GETRS + 1), np.empty((0, size))
+    factored = Factored(carray(to_number(table[ROOM]), (size, size)), own, nothing, lines, lines, table)
+    return factored, System(compliance, jacobian, jacobian, nothing, own, nothing, nothing, 1.0 / compliance[0, 0])
 
 
 @njit(cache=True)
