@@ -25,7 +25,7 @@ from .face_pairing import FacePair, contact_axes, rises_of
 from .fine_sections import together
 from .idler import Part
 from .joined_rows import Coupling
-from .mesh_cycle import Cycle
+from .mesh_cycle import Cycle, in_common
 
 
 @dataclass(frozen=True)
@@ -64,6 +64,14 @@ class OnBody(NamedTuple):
         return found
 
 
+class MotionsInSlices(dict[tuple[int, int], np.ndarray]):
+    """By gear and kind of flank, motions in slices of meshes that pass the same places."""
+
+
+class MovedNodes(dict[tuple[int, int, float], np.ndarray]):
+    """The same of contact nodes, by the place in the mesh cycle too."""
+
+
 # Of the largest, singular values of what meshes feel of each other that are left out.
 LEAST_SHARED = 1e-8
 
@@ -85,7 +93,7 @@ class GearOverFace:
     ) -> tuple[list[Coupling], list[Coupling]]:
         there = [(cycles[mesh.number], parts[mesh.number]) for mesh in self.meshes]
         pairs = [part.position.operator.pairs for _, part in there]
-        now = self._seen([cycle for cycle, _ in there], pairs)
+        now = self._seen([cycle for cycle, _ in there], pairs, indices=[part.position.index for _, part in there])
         if not there[0][0].tangential:
             return self._coupled(now, now), []
         before = self._seen([cycle for cycle, _ in there], [part.before for _, part in there])
@@ -116,15 +124,24 @@ class GearOverFace:
         return np.where(behind[:, :, None, None], found.swapaxes(2, 3), found) if behind.any() else found
 
     def _seen(
-        self, cycles: Sequence[Cycle], pairs_of: Sequence[Sequence[FacePair]], steps: float | None = None
+        self,
+        cycles: Sequence[Cycle],
+        pairs_of: Sequence[Sequence[FacePair]],
+        steps: float | None = None,
+        indices: Sequence[float] | None = None,
     ) -> list[OnBody]:
-        """Contact nodes of each mesh on the gear; `steps`: their tangents as they were so many steps before."""
+        """Contact nodes of each mesh on the gear; `steps`: their tangents as they were so many steps before;
+        `indices`: places in mesh cycles at which all that pass them move alike."""
         found = []
-        for mesh, motions, cycle, pairs in zip(self.meshes, self.motions, cycles, pairs_of):
+        places = indices or [None] * len(cycles)
+        for mesh, motions, cycle, pairs, index in zip(self.meshes, self.motions, cycles, pairs_of, places):
             turned = None if steps is None else cycle.pair.sides[mesh.gear].turn * steps / cycle.steps
             teeth = np.array([mesh.tooth(pair.place.teeth[mesh.gear]) for pair in pairs], dtype=np.int64)
             counts = [len(pair.offsets) for pair in pairs]
-            moved = _moved(motions, mesh.gear, cycle, pairs, turned)
+            known, key = _known_at(mesh, cycle, index)
+            if key not in known:
+                known[key] = _moved(motions, mesh.gear, cycle, pairs, turned)
+            moved = known[key]
             found.append(OnBody(moved, *np.unique(np.repeat(teeth, counts), return_inverse=True)))
         return found
 
@@ -177,11 +194,24 @@ def gear_over_face(
     teeth: int, meshes: tuple[MeshOfGear, ...], body: SharedCompliance, cycles: Sequence[Cycle]
 ) -> GearOverFace:
     """A gear with its body; `cycles` of all meshes of the train."""
-    motions = tuple(
-        _in_slices(body.flanks[mesh.kind], body.between.motions[mesh.kind], mesh.gear, cycles[mesh.number])
-        for mesh in meshes
-    )
-    return GearOverFace(teeth, meshes, body.between, motions)
+    motions = []
+    for mesh in meshes:
+        cycle = cycles[mesh.number]
+        known = cycle.true_place(0)[0].shared(MotionsInSlices)
+        key = mesh.gear, mesh.kind
+        if key not in known:
+            known[key] = _in_slices(body.flanks[mesh.kind], body.between.motions[mesh.kind], mesh.gear, cycle)
+        motions.append(known[key])
+    return GearOverFace(teeth, meshes, body.between, tuple(motions))
+
+
+def _known_at(
+    mesh: MeshOfGear, cycle: Cycle, index: float | None
+) -> tuple[dict[tuple[int, int, float], np.ndarray], tuple[int, int, float]]:
+    """What is known of how the nodes of meshes move that pass a place, and its key; nothing at no place in common."""
+    origin, place = cycle.true_place(index or 0.0)
+    known = origin.shared(MovedNodes) if index is not None and in_common(place) else {}
+    return known, (mesh.gear, mesh.kind, place)
 
 
 def _in_slices(body: FaceCompliance, motions: np.ndarray, gear: int, cycle: Cycle) -> np.ndarray:

@@ -159,6 +159,22 @@ class RowCycle(Cycle):
         for each in self.meshes:
             each.cycle.kept = Kept(memory / (count * (together + 2)))
 
+    def alike_nodes(self, step: int) -> list[tuple[tuple, slice]]:
+        there = [mesh.cycle.true_place(step) for mesh in self.meshes]
+        of_meshes = self._alike(step).of_meshes
+        return [
+            ((cycle.mesh, place), slice(first, first + position.operator.nodes))
+            for (cycle, place), (position, first) in zip(there, of_meshes)
+        ]
+
+    @property
+    def steps_until_alike(self) -> int:
+        there = [mesh.cycle.true_place(0) for mesh in self.meshes]
+        apart = {
+            int(one - other) % cycle.steps for cycle, one in there for like, other in there if like.mesh is cycle.mesh
+        }
+        return min(apart - {0}, default=self.steps)
+
     def position(self, step: int) -> JoinedPosition:
         return self._deviated(step, self._alike(step))
 
