@@ -20,7 +20,7 @@ from typing import NamedTuple
 import numpy as np
 from numba import carray, cfunc, njit
 
-from .addresses import KNOWN, ROOM, form_rows, forces_at, to_integer, to_number
+from .addresses import KNOWN, ROOM, forces_at, form_rows, to_integer, to_number
 from .factored_compliance import GETRS, Factored, System, has_factors, put_solutions
 from .joined_table import (
     COUNT,

@@ -17,8 +17,9 @@ from .compliance_product import subtract_displaced
 # and of the units of rows and of columns, 0 where all are one.
 PARTS, COUPLINGS, SIDES, ROWS, COLUMNS, KINDS, KINDS_OF_COLUMNS, MATRIX, FORMED, UNITS, UNITS_OF_COLUMNS = range(4, 15)
 NUMBERS = 15
-# Of a part: address of its table, of its matrix, its first node among rows and columns, and how many it has. Then, where
-# all is solved mesh by mesh, addresses of its Factors and of what lasts with them, and how many motions its sides have.
+# Of a part: address of its table, of its matrix, its first node among rows and columns, and how many it has. Then,
+# where all is solved mesh by mesh, addresses of its Factors and of what lasts with them, and how many motions its sides
+# have.
 TABLE, OWN, FIRST, COUNT, FIRST_COLUMN, COUNT_OF_COLUMNS, FACTORS, LASTING, MOVES = range(9)
 # Of a coupling: the part that responds and the one that is loaded; addresses of what moves the nodes of either, and of
 # what is between these motions; how many motions each has. Then, where all is solved mesh by mesh, the number of the
@@ -83,7 +84,8 @@ def _displace(address, forces_address, displacement_address):
             subtract_displaced(displacement[own], forces[own], own_compliance(part), np.int64(0))
     if not len(sides):
         return 1
-    work, moved = np.zeros((2, len(sides), sides[:, MOTIONS].max()))
+    work = np.zeros((len(sides), sides[:, MOTIONS].max()))
+    moved = np.zeros_like(work)
     for number in range(len(sides)):
         _add_work(work[number], tables, sides[number], forces)
     for coupling in tables.couplings:

@@ -23,7 +23,7 @@ from .idler import Part, RowCompliance, units_of
 from .mesh import Mesh
 from .mesh_cycle import Cycle, Deviation, Gaps
 from .mixed_form import StepEquations
-from .operator import ContactOperator, Position
+from .operator import SHARE_FORMED, ContactOperator, Position
 from .places import counted_from
 from .step_solver import StepSolution, solve_step
 from .tooth_pair import PairNodes
@@ -109,9 +109,9 @@ class JoinedPosition(Position):
 
     @property
     def bytes(self) -> int:
-        # Without friction over the face meshes are solved one by one, and all together have no operators.
+        # Without friction over the face meshes are solved one by one: factors between the nodes whose rows are formed.
         alone = self.operator.rigid_slip is None and self.operator.stored.address
-        return sum(each.bytes for each, _ in self.of_meshes) if alone else super().bytes
+        return int(SHARE_FORMED * sum(each.bytes for each, _ in self.of_meshes)) if alone else super().bytes
 
 
 class RowCycle(Cycle):
@@ -148,16 +148,19 @@ class RowCycle(Cycle):
     def share(self, memory: float, once: bool = False) -> None:
         """Let operators take so many bytes, those of single meshes among them; those of all meshes are held
         for a block of steps alone where each position of them is passed `once`. Meshes pass theirs more often."""
-        count = len(self.meshes)
         # Operators grow with the square of their nodes, and those of all meshes have count times as many; how these
-        # feel each other takes as much as each by itself. Meshes that are solved one by one are all that there is.
+        # feel each other takes as much as each by itself. Meshes that are solved one by one have factors alone together.
         alone = not self.tangential and len(self.face.widths) > 1
-        together = 1.0 if alone else count
-        self.kept = Kept(memory * together / (together + 2))
+        count = 1 if alone else len(self.meshes)
+        self.kept = Kept(memory * count / (count + 2))
         self._keeps = not once
-        self._compliance.kept = Kept(memory / (together + 2))
+        self._compliance.kept = Kept(memory / (count + 2))
+        origins = {id(each.cycle.true_place(0)[0].mesh) for each in self.meshes}
+        of_meshes = memory * (2 if alone else 1) / (count + 2)
         for each in self.meshes:
-            each.cycle.kept = Kept(memory / (count * (together + 2)))
+            # Meshes that are like others hold no operators of their own.
+            own = each.cycle.true_place(0)[0].mesh is each.cycle.mesh
+            each.cycle.kept = Kept(of_meshes / len(origins)) if own else Kept()
 
     def alike_nodes(self, step: int) -> list[tuple[tuple, slice]]:
         there = [mesh.cycle.true_place(step) for mesh in self.meshes]
