@@ -163,6 +163,13 @@ def solver_of(address):
 
 
 @njit(cache=True)
+def displacer_of(address):
+    """Address of what subtracts displacements by forces mesh by mesh (`contact.joined_table`), by the same table; 0
+    where that is done by rows."""
+    return 0 if address == 0 else carray(to_integer(address), 4)[3]
+
+
+@njit(cache=True)
 def forces_at(address):
     """A number of forces, then their rows."""
     return carray(to_integer(address), 1 + carray(to_integer(address), 1)[0])

@@ -18,6 +18,9 @@ class CycleAlike(Cycle):
         self._like = like
         self._ahead = ahead
 
+    def true_place(self, step: float) -> tuple[Cycle, float]:
+        return self._like.true_place(step + self._ahead)
+
     def pairs_at(self, index: int) -> tuple[PairNodes, ...]:
         key = (self.mesh.nodes, index)
         if key not in self._pairs:

@@ -30,6 +30,7 @@ from .addresses import (
     ROOM,
     call,
     forces_at,
+    form_rows,
     marching,
     present_march,
     to_integer,
@@ -53,8 +54,8 @@ class Factors:
 
     def __init__(self, nodes: int, forces: int):
         rooms = [(pages(size, size), np.zeros(size + 1, dtype=np.int64)) for size in (nodes, forces)]
-        self._arrays = *rooms[0], *rooms[1], np.zeros(forces, dtype=np.int32), np.zeros(forces), pages(forces, forces)
-        addresses = [array.ctypes.data for array in self._arrays]
+        self.arrays = *rooms[0], *rooms[1], np.zeros(forces, dtype=np.int32), np.zeros(forces), pages(forces, forces)
+        addresses = [array.ctypes.data for array in self.arrays]
         self.table = np.array([*addresses[:-2], -1, marching.ctypes.data, *addresses[-2:], *_lapack()])
 
 
@@ -65,7 +66,7 @@ def _lapack() -> list[int]:
     return [get_cython_function_address(module, name) for name in ("dpotrf", "dpotrs", "dgetrf", "dgetrs")]
 
 
-class _System(NamedTuple):
+class System(NamedTuple):
     """The mixed form, m forces of n nodes: `rows` (a,) of the unknown forces, `slip` (b,) tangential forces per normal
     one of the first b of them, none without friction; right side `opening` (a,), mm. Forces are in units of `unit`
     N/mm, so that entries of the compliance are near one."""
@@ -80,9 +81,9 @@ class _System(NamedTuple):
     unit: float
 
 
-class _Factored(NamedTuple):
+class Factored(NamedTuple):
     """Factors: `matrix` (a, a), by columns as LAPACK reads them, of the transposed compliance between the forces of
-    `rows` (a,) with their `slip`, as of a _System; and the `table` of Factors.
+    `rows` (a,) with their `slip`, as of a System; and the `table` of Factors.
 
     `of_forces` (k, a): G~; first among `lines` is C^-1 G, with friction as long as the factors last.
     """
@@ -104,10 +105,10 @@ def factored_solver():
 
 def _solve(address):
     """Returns 1, or 0 where the compliance is not safely regular or the drivetrain is loose."""
-    at = carray(to_integer(address), 13)
+    at = carray(to_integer(address), 14)
     m, k, size, slipping, table = at[1], at[2], at[3], at[4], carray(to_integer(at[0]), GETRS + 1)
     compliance = carray(to_number(at[5]), (m, m))
-    system = _System(
+    system = System(
         compliance,
         carray(to_number(at[6]), (m, k)),
         carray(to_number(at[7]), (k, k)),
@@ -117,21 +118,32 @@ def _solve(address):
         carray(to_number(at[11]), size),
         1.0 / compliance[0, 0],
     )
+    form_rows(at[13], system.rows[: slipping if slipping else size])
     result = carray(to_number(at[12]), m + k)
     return _solve_slipping(system, table, result) if slipping else _solve_frictionless(system, table, result)
 
 
 @njit(cache=True)
 def _solve_frictionless(system, table, result):
-    known = forces_at(table[KNOWN])
     factored = _factored(table, system.rows, system.slip, len(system.load))
-    if not np.array_equal(known[1:], system.rows):
-        known[0] = 0
-        if not _factor(factored, system):
-            return 0
-        _know(table[KNOWN], system.rows)
+    if not has_factors(factored, system):
+        return 0
     _put_motions(factored, system)
     return _solve_with(factored, system, result)
+
+
+@njit(cache=True)
+def has_factors(factored, system):
+    """Put the factors of a system without friction into place, where they are not yet; returns whether they are safely
+    regular."""
+    known = forces_at(factored.table[KNOWN])
+    if np.array_equal(known[1:], system.rows):
+        return True
+    known[0] = 0
+    if not _factor(factored, system):
+        return False
+    _know(factored.table[KNOWN], system.rows)
+    return True
 
 
 @njit(cache=True)
@@ -169,7 +181,7 @@ def _factored(table, rows, slip, k):
         lines = carray(to_number(table[LINES]), (2 * k + 1, size))
     else:
         lines = np.empty((2 * k + 1, size))
-    return _Factored(matrix, rows, slip, lines[:k], lines[k:], table)
+    return Factored(matrix, rows, slip, lines[:k], lines[k:], table)
 
 
 @njit(cache=True)
@@ -195,7 +207,7 @@ def _put_motions(factored, system):
             if a < len(slip):
                 factored.of_forces[c, a] += slip[a] * jacobian[n + rows[a], c]
     if len(slip):
-        _put_solutions(factored, factored.lines[: len(factored.of_forces)], True)
+        put_solutions(factored, factored.lines[: len(factored.of_forces)], True)
 
 
 @njit(cache=True)
@@ -219,7 +231,7 @@ def _eliminate(factored, slipping):
 
 
 @njit(cache=True)
-def _put_solutions(factored, sides, slipping):
+def put_solutions(factored, sides, slipping):
     """Put C^-1 b of right sides b (s, a) in their place."""
     # By columns as LAPACK reads them: a right side is a column, and the matrix is the transposed one.
     numbers = np.array([TRANSPOSED if slipping else LOWER, len(factored.matrix), len(sides), 0], dtype=np.int32)
@@ -240,7 +252,7 @@ def _solve_with(factored, system, result):
     k, frictional = len(system.load), len(slip) > 0
     lines = factored.lines[: k + 1]
     lines[k] = system.opening
-    _put_solutions(factored, lines[k if frictional else 0 :], frictional)
+    put_solutions(factored, lines[k if frictional else 0 :], frictional)
     by_forces = np.dot(factored.of_forces, lines.T)
     matrix, coordinates = system_of(k), np.empty(k)
     for c in range(k):

@@ -70,8 +70,8 @@ class _Source(NamedTuple):
     matrix: np.ndarray
 
 
-# In compiled code it is a table: first the addresses that `addresses.form_rows` and `addresses.solver_of` read, the
-# latter 0 between other nodes than those of one position; then address and shape of each array, the last being the
+# In compiled code it is a table: first the addresses that `addresses.form_rows`, `addresses.solver_of` and
+# `addresses.displacer_of` read, 0 where there is none; then address and shape of each array, the last being the
 # flags that say which rows are formed.
 ARRAYS = 35
 

@@ -8,8 +8,9 @@ by contact nodes along their directions.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import permutations
+from typing import NamedTuple
 
 import numpy as np
 from scipy import sparse
@@ -23,8 +24,8 @@ from .face import Face
 from .face_pairing import FacePair, contact_axes, rises_of
 from .fine_sections import together
 from .idler import Part
-from .joined_rows import Coupling, OnBody
-from .mesh_cycle import Cycle
+from .joined_rows import Coupling
+from .mesh_cycle import Cycle, in_common
 
 
 @dataclass(frozen=True)
@@ -46,6 +47,35 @@ class MeshOfGear:
         return tooth if self.counted is None else self.counted.flank(1, (tooth, 0))[0]
 
 
+class OnBody(NamedTuple):
+    """Contact nodes (n,) of a mesh on a gear: how motions of its body move them (d, n, r), along directions; its
+    `teeth` there, (T,), and the place among these of that on which each node is."""
+
+    moved: np.ndarray
+    teeth: np.ndarray
+    tooth: np.ndarray
+
+    def by(self, motions: np.ndarray) -> np.ndarray:
+        """How joint motions of its teeth (T, r, s) move the nodes, (d, n, s)."""
+        found = np.empty((*self.moved.shape[:2], motions.shape[2]))
+        for number, of_tooth in enumerate(motions):
+            nodes = np.flatnonzero(self.tooth == number)
+            found[:, nodes] = self.moved[:, nodes] @ of_tooth
+        return found
+
+
+class MotionsInSlices(dict[tuple[int, int], np.ndarray]):
+    """By gear and kind of flank, motions in slices of meshes that pass the same places."""
+
+
+class MovedNodes(dict[tuple[int, int, float], np.ndarray]):
+    """The same of contact nodes, by the place in the mesh cycle too."""
+
+
+# Of the largest, singular values of what meshes feel of each other that are left out.
+LEAST_SHARED = 1e-8
+
+
 @dataclass(frozen=True, eq=False)
 class GearOverFace:
     """A gear of so many `teeth` in several `meshes`, what is `between` its flanks, and in slices the `motions`
@@ -55,13 +85,15 @@ class GearOverFace:
     meshes: tuple[MeshOfGear, ...]
     between: BetweenMates
     motions: tuple[np.ndarray, ...]
+    # By the teeth of all meshes that touch, joint motions of these.
+    _shared: dict[tuple[tuple[int, ...], ...], tuple] = field(default_factory=dict)
 
     def couplings(
         self, cycles: Sequence[Cycle], parts: Sequence[Part], steps: float
     ) -> tuple[list[Coupling], list[Coupling]]:
         there = [(cycles[mesh.number], parts[mesh.number]) for mesh in self.meshes]
         pairs = [part.position.operator.pairs for _, part in there]
-        now = self._seen([cycle for cycle, _ in there], pairs)
+        now = self._seen([cycle for cycle, _ in there], pairs, indices=[part.position.index for _, part in there])
         if not there[0][0].tangential:
             return self._coupled(now, now), []
         before = self._seen([cycle for cycle, _ in there], [part.before for _, part in there])
@@ -92,37 +124,94 @@ class GearOverFace:
         return np.where(behind[:, :, None, None], found.swapaxes(2, 3), found) if behind.any() else found
 
     def _seen(
-        self, cycles: Sequence[Cycle], pairs_of: Sequence[Sequence[FacePair]], steps: float | None = None
+        self,
+        cycles: Sequence[Cycle],
+        pairs_of: Sequence[Sequence[FacePair]],
+        steps: float | None = None,
+        indices: Sequence[float] | None = None,
     ) -> list[OnBody]:
-        """Contact nodes of each mesh on the gear; `steps`: their tangents as they were so many steps before."""
+        """Contact nodes of each mesh on the gear; `steps`: their tangents as they were so many steps before;
+        `indices`: places in mesh cycles at which all that pass them move alike."""
         found = []
-        for mesh, motions, cycle, pairs in zip(self.meshes, self.motions, cycles, pairs_of):
+        places = indices or [None] * len(cycles)
+        for mesh, motions, cycle, pairs, index in zip(self.meshes, self.motions, cycles, pairs_of, places):
             turned = None if steps is None else cycle.pair.sides[mesh.gear].turn * steps / cycle.steps
             teeth = np.array([mesh.tooth(pair.place.teeth[mesh.gear]) for pair in pairs], dtype=np.int64)
             counts = [len(pair.offsets) for pair in pairs]
-            moved = _moved(motions, mesh.gear, cycle, pairs, turned)
+            known, key = _known_at(mesh, cycle, index)
+            if key not in known:
+                known[key] = _moved(motions, mesh.gear, cycle, pairs, turned)
+            moved = known[key]
             found.append(OnBody(moved, *np.unique(np.repeat(teeth, counts), return_inverse=True)))
         return found
 
     def _coupled(self, rows: list[OnBody], columns: list[OnBody]) -> list[Coupling]:
-        """Each two meshes of the gear, one by forces on the other."""
-        found = []
-        for (mesh, own), (loaded, _) in permutations(zip(self.meshes, rows), 2):
-            other = columns[self.meshes.index(loaded)]
-            between = self.response((mesh.kind, loaded.kind), own.teeth, other.teeth)
-            found.append(Coupling(mesh.number, loaded.number, own, other, between))
-        return found
+        """Each two meshes of the gear, one by forces on the other, by the joint motions of their teeth that matter."""
+        teeth = tuple(tuple(each.teeth.tolist()) for each in (*rows, *columns))
+        if teeth not in self._shared:
+            self._shared[teeth] = self._shared_motions(rows, columns)
+        motions, motions_of_loaded, between = self._shared[teeth]
+        moved = [each.by(own) for each, own in zip(rows, motions)]
+        same = rows is columns
+        moved_of_loaded = moved if same else [each.by(own) for each, own in zip(columns, motions_of_loaded)]
+        return [
+            Coupling(self.meshes[one].number, self.meshes[other].number, moved[one], moved_of_loaded[other], each)
+            for (one, other), each in between.items()
+        ]
+
+    def _shared_motions(
+        self, rows: list[OnBody], columns: list[OnBody]
+    ) -> tuple[list[np.ndarray], list[np.ndarray], dict[tuple[int, int], np.ndarray]]:
+        """Joint motions (T, r, s) of the teeth of each mesh that others feel, as it responds and as it is loaded; and
+        by two meshes what is between those, (s, s')."""
+        pairs = list(permutations(range(len(self.meshes)), 2))
+        known = {}
+        for one, other in pairs:
+            kinds = self.meshes[one].kind, self.meshes[other].kind
+            found = self.response(kinds, rows[one].teeth, columns[other].teeth)
+            known[one, other] = found.transpose(0, 2, 1, 3).reshape(found.shape[0] * found.shape[2], -1)
+        numbers = range(len(self.meshes))
+        own = [_felt([known[pair] for pair in pairs if pair[0] == each]) for each in numbers]
+        loaded = own
+        if rows is not columns:
+            loaded = [_felt([known[pair].T for pair in pairs if pair[1] == each]) for each in numbers]
+        between = {(one, other): own[one].T @ known[one, other] @ loaded[other] for one, other in pairs}
+        return _by_teeth(own, rows), _by_teeth(loaded, columns), between
+
+
+def _by_teeth(motions: list[np.ndarray], seen: list[OnBody]) -> list[np.ndarray]:
+    """Joint motions of the teeth of each mesh, (T, r, s)."""
+    return [each.reshape(len(on.teeth), on.moved.shape[2], each.shape[1]) for each, on in zip(motions, seen)]
+
+
+def _felt(blocks: list[np.ndarray]) -> np.ndarray:
+    """Orthonormal motions (T r, s) of a mesh of which its response (T r, U r') to each other mesh is made."""
+    found, sizes, _ = np.linalg.svd(np.hstack(blocks), full_matrices=False)
+    return np.ascontiguousarray(found[:, sizes > LEAST_SHARED * sizes.max(initial=0.0)])
 
 
 def gear_over_face(
     teeth: int, meshes: tuple[MeshOfGear, ...], body: SharedCompliance, cycles: Sequence[Cycle]
 ) -> GearOverFace:
     """A gear with its body; `cycles` of all meshes of the train."""
-    motions = tuple(
-        _in_slices(body.flanks[mesh.kind], body.between.motions[mesh.kind], mesh.gear, cycles[mesh.number])
-        for mesh in meshes
-    )
-    return GearOverFace(teeth, meshes, body.between, motions)
+    motions = []
+    for mesh in meshes:
+        cycle = cycles[mesh.number]
+        known = cycle.true_place(0)[0].shared(MotionsInSlices)
+        key = mesh.gear, mesh.kind
+        if key not in known:
+            known[key] = _in_slices(body.flanks[mesh.kind], body.between.motions[mesh.kind], mesh.gear, cycle)
+        motions.append(known[key])
+    return GearOverFace(teeth, meshes, body.between, tuple(motions))
+
+
+def _known_at(
+    mesh: MeshOfGear, cycle: Cycle, index: float | None
+) -> tuple[dict[tuple[int, int, float], np.ndarray], tuple[int, int, float]]:
+    """What is known of how the nodes of meshes move that pass a place, and its key; nothing at no place in common."""
+    origin, place = cycle.true_place(index or 0.0)
+    known = origin.shared(MovedNodes) if index is not None and in_common(place) else {}
+    return known, (mesh.gear, mesh.kind, place)
 
 
 def _in_slices(body: FaceCompliance, motions: np.ndarray, gear: int, cycle: Cycle) -> np.ndarray:

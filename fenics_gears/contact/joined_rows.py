@@ -15,19 +15,42 @@ from numba import carray, cfunc, njit
 from fenics_gears.system.memory import pages
 
 from .addresses import form_rows, to_flag, to_integer, to_number
+from .factored_compliance import Factors, factored_solver
 from .formed_rows import FormedRows
-
-# In the table of all rows after what `addresses` names: how many parts and couplings there are, nodes of all rows and
-# columns, forces of a node in either, addresses of the matrix, of the flags that say which rows are formed, and of the
-# units of rows and of columns, 0 where all are one.
-PARTS, COUPLINGS, ROWS, COLUMNS, KINDS, KINDS_OF_COLUMNS, MATRIX, FORMED, UNITS, UNITS_OF_COLUMNS = range(3, 13)
-NUMBERS = 13
-# Of a part: address of its table, of its matrix, its first node among rows and columns, and how many it has.
-TABLE, OWN, FIRST, COUNT, FIRST_COLUMN, COUNT_OF_COLUMNS = range(6)
-# Of a coupling: the part that responds and the one that is loaded; of the nodes of either addresses of what moves them
-# and of the tooth of each; address of what is between teeth; number of motions and of teeth of either.
-RESPONDING, LOADED, MOVED, TOOTH, MOVED_OF_LOADED, TOOTH_OF_LOADED, BETWEEN, MOTIONS, MOTIONS_OF_LOADED = range(9)
-TEETH, TEETH_OF_LOADED = range(9, 11)
+from .joined_solver import joined_solver
+from .joined_table import (
+    BETWEEN,
+    COLUMNS,
+    COUNT,
+    COUNT_OF_COLUMNS,
+    COUPLINGS,
+    FACTORS,
+    FIRST,
+    FIRST_COLUMN,
+    FORMED,
+    KINDS,
+    KINDS_OF_COLUMNS,
+    LOADED,
+    MATRIX,
+    MOTIONS,
+    MOTIONS_OF_LOADED,
+    MOVED,
+    MOVED_OF_LOADED,
+    MOVES,
+    NUMBERS,
+    OWN,
+    PART,
+    PARTS,
+    RESPONDING,
+    ROWS,
+    SIDE,
+    SIDE_OF_LOADED,
+    TABLE,
+    UNITS,
+    UNITS_OF_COLUMNS,
+    between_motions,
+    joined_displacer,
+)
 
 
 class AllRows(NamedTuple):
@@ -36,6 +59,7 @@ class AllRows(NamedTuple):
     matrix: np.ndarray
     address: int = 0
     arrays: tuple[np.ndarray, ...] = ()
+    factors: None = None
 
     @property
     def table(self) -> np.ndarray:
@@ -50,24 +74,15 @@ class Joined(NamedTuple):
     first_column: int
 
 
-class OnBody(NamedTuple):
-    """Contact nodes (n,) of a mesh on a gear: how motions of its body move them (d, n, r), along directions; its
-    `teeth` there, (T,), and the place among these of that on which each node is."""
-
-    moved: np.ndarray
-    teeth: np.ndarray
-    tooth: np.ndarray
-
-
 class Coupling(NamedTuple):
     """How contact nodes of one mesh, by its number, are displaced by forces on those of another one, through a gear of
-    both; `between` (T, U, r, r'), mm/N: motions on teeth of the one by those that forces on teeth of the other do work
-    on."""
+    both: how motions of its body move the nodes of either, (d, n, r) along directions, and `between` (r, r'), mm/N,
+    motions of the one by those that forces on the other do work on."""
 
     responding: int
     loaded: int
-    nodes: OnBody
-    nodes_of_loaded: OnBody
+    moved: np.ndarray
+    moved_of_loaded: np.ndarray
     between: np.ndarray
 
 
@@ -84,31 +99,68 @@ def joined_rows(
     nodes, columns = shape
     matrix = pages(kinds[0] * nodes, kinds[1] * columns)
     formed = np.zeros(nodes, dtype=bool)
-    table = np.zeros((1 + len(parts) + len(couplings), NUMBERS), dtype=np.int64)
+    by_mesh = kinds == (1, 1) and all(part.rows.factors is not None for part in parts)
+    sides, numbers = _sides(couplings) if by_mesh else ([], {})
+    table = np.zeros((1 + len(parts) + len(couplings) + len(sides), NUMBERS), dtype=np.int64)
+    sizes = len(parts), len(couplings), len(sides), nodes, columns, *kinds
+    held = [matrix, formed, *(units or ())]
+    table[0, PARTS:MATRIX] = sizes
+    table[0, MATRIX : MATRIX + len(held)] = [array.ctypes.data for array in held]
+    table[0, 0] = joined_row_former().address
     factors = None
-    if not by_columns and any(part.rows.address for part in parts):
-        from .factored_compliance import Factors, factored_solver
-
+    if by_mesh:
+        table[0, 1:4] = joined_solver().address, table.ctypes.data, joined_displacer().address
+    elif not by_columns and any(part.rows.address for part in parts):
         factors = Factors(nodes, kinds[0] * nodes)
         table[0, 1:3] = factored_solver().address, factors.table.ctypes.data
-    table[0, 0] = joined_row_former().address
-    arrays = [matrix, formed, *(units or ())]
-    table[0, PARTS:MATRIX] = len(parts), len(couplings), nodes, columns, *kinds
-    table[0, MATRIX : MATRIX + len(arrays)] = [array.ctypes.data for array in arrays]
     for row, part in zip(table[1:], parts):
         counts = [length // kind for length, kind in zip(part.rows.matrix.shape, kinds)]
         own = part.rows.address, part.rows.matrix.ctypes.data
         row[:6] = *own, part.first, counts[0], part.first_column, counts[1]
-        arrays += [*part.rows.arrays, part.rows.table]
+        held += [*part.rows.arrays, part.rows.table]
     for row, each in zip(table[1 + len(parts) :], couplings):
-        of_nodes = each.nodes.moved, each.nodes.tooth, each.nodes_of_loaded.moved, each.nodes_of_loaded.tooth
-        of_both = [np.ascontiguousarray(array) for array in (*of_nodes, each.between)]
         row[:2] = each[:2]
-        row[MOVED : BETWEEN + 1] = [array.ctypes.data for array in of_both]
-        row[MOTIONS : TEETH_OF_LOADED + 1] = *each.between.shape[2:], *each.between.shape[:2]
-        arrays += of_both
+        row[MOVED : BETWEEN + 1] = [array.ctypes.data for array in each[2:]]
+        row[MOTIONS : MOTIONS_OF_LOADED + 1] = each.between.shape
+        if by_mesh:
+            row[SIDE : SIDE_OF_LOADED + 1] = numbers[id(each.moved)], numbers[id(each.moved_of_loaded)]
+            place = 1 + len(parts) + len(couplings) + row[SIDE]
+            table[place] = row
+            table[place, :2] = each.responding, sides[row[SIDE]]
+        held += each[2:]
+    if by_mesh:
+        held += _room_for_factors(table, len(parts))
     # Nodes of a mesh are in several couplings.
-    return FormedRows(matrix, formed, by_columns, table, list({id(each): each for each in arrays}.values()), factors)
+    arrays = list({id(each): each for each in held}.values())
+    return FormedRows(matrix, formed, by_columns, table, arrays, factors)
+
+
+def _room_for_factors(table: np.ndarray, parts: int) -> list[np.ndarray]:
+    """Room of each part for what lasts until its sets change: meshes that share rows may be solved at the same time."""
+    held = []
+    sides = table[1 + parts + table[0, COUPLINGS] :]
+    for number, row in enumerate(table[1 : 1 + parts]):
+        factors = Factors(int(row[COUNT]), 0)
+        motions = int(sides[sides[:, PART] == number, MOTIONS].sum())
+        lasting = pages(2 * motions, int(row[COUNT]))
+        row[FACTORS : MOVES + 1] = factors.table.ctypes.data, lasting.ctypes.data, motions
+        held += [*factors.arrays, factors.table, lasting]
+    return held
+
+
+def _sides(couplings: Sequence[Coupling]) -> tuple[list[int], dict[int, int]]:
+    """The gear of each side of a mesh that couplings have, those of few sides first; and the number of a side by the
+    identity of its nodes."""
+    gears: list[list[int]] = []
+    for each in couplings:
+        both = [id(each.moved), id(each.moved_of_loaded)]
+        own = next((gear for gear in gears if not set(gear).isdisjoint(both)), None)
+        if own is None:
+            gears.append(own := [])
+        own += [side for side in both if side not in own]
+    gears.sort(key=len)
+    numbers = {side: number for number, side in enumerate(side for gear in gears for side in gear)}
+    return [number for number, gear in enumerate(gears) for _ in gear], numbers
 
 
 @cache
@@ -130,7 +182,7 @@ def _form_joined_rows(address, nodes, count):
         if len(own):
             form_rows(part[TABLE], own - part[FIRST])
             _copy(head, part, own)
-            for coupling in table[1 + head[PARTS] :]:
+            for coupling in table[1 + head[PARTS] : 1 + head[PARTS] + head[COUPLINGS]]:
                 if coupling[RESPONDING] == number:
                     _put_coupled(head, part, table[1 + coupling[LOADED]], coupling, own)
             if head[UNITS] != 0:
@@ -156,21 +208,15 @@ def _put_coupled(head, part, other, coupling, nodes):
     """Put what forces of another mesh displace into rows of this one."""
     matrix, kinds, others = _matrix(head), head[KINDS], head[KINDS_OF_COLUMNS]
     n, m, first = part[COUNT], other[COUNT_OF_COLUMNS], other[FIRST_COLUMN]
-    r, s, teeth = coupling[MOTIONS], coupling[MOTIONS_OF_LOADED], coupling[TEETH_OF_LOADED]
-    moved = carray(to_number(coupling[MOVED]), (kinds, n, r))
-    tooth = carray(to_integer(coupling[TOOTH]), n)
-    moved_of_loaded = carray(to_number(coupling[MOVED_OF_LOADED]), (others, m, s))
-    tooth_of_loaded = carray(to_integer(coupling[TOOTH_OF_LOADED]), m)
-    between = carray(to_number(coupling[BETWEEN]), (coupling[TEETH], teeth, r, s))
-    of_teeth = np.empty((teeth, s))
+    moved = carray(to_number(coupling[MOVED]), (kinds, n, coupling[MOTIONS]))
+    moved_of_loaded = carray(to_number(coupling[MOVED_OF_LOADED]), (others, m, coupling[MOTIONS_OF_LOADED]))
+    between = between_motions(coupling)
     for d in range(kinds):
-        for node in nodes:
-            own = node - part[FIRST]
-            for there in range(teeth):
-                of_teeth[there] = np.dot(moved[d, own], between[tooth[own], there])
-            row = matrix[d * head[ROWS] + node]
-            for e in range(others):
-                _add_up(moved_of_loaded[e], tooth_of_loaded, of_teeth, row[e * head[COLUMNS] + first :])
+        by_motions = np.dot(moved[d][nodes - part[FIRST]], between)
+        for e in range(others):
+            column, displaced = e * head[COLUMNS] + first, np.dot(by_motions, moved_of_loaded[e].T)
+            for number in range(len(nodes)):
+                matrix[d * head[ROWS] + nodes[number], column : column + m] = displaced[number]
 
 
 @njit(cache=True)
@@ -183,16 +229,6 @@ def _put_units(head, nodes):
         for node in nodes:
             row = d * head[ROWS] + node
             matrix[row] *= of_rows[row] * of_columns
-
-
-@njit(cache=True, fastmath={"reassoc"})
-def _add_up(moved, tooth, of_teeth, row):
-    """Displacements by forces on nodes that motions move (m, s), from what these do by teeth (U, s)."""
-    for node in range(len(moved)):
-        total = 0.0
-        for motion in range(moved.shape[1]):
-            total += moved[node, motion] * of_teeth[tooth[node], motion]
-        row[node] = total
 
 
 @njit(cache=True)

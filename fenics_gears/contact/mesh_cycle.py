@@ -140,6 +140,19 @@ class Cycle:
         """Whether positions of all mesh cycles have the same contact nodes."""
         return self.mesh.of_cycle is None
 
+    def true_place(self, step: float) -> tuple[Cycle, float]:
+        """The cycle whose operators are here at a step, and the place there, in steps."""
+        return self, step % self.steps
+
+    def alike_nodes(self, step: int) -> list[tuple[tuple, slice]]:
+        """Contact nodes of meshes that pass the very same places as others, by those; none of a mesh by itself."""
+        return []
+
+    @property
+    def steps_until_alike(self) -> int:
+        """After how many steps meshes are first where meshes have been."""
+        return self.steps
+
     def shared(self, kind: type[Value]) -> Value:
         """The one object of a kind that runs on these operators share, whatever their gaps."""
         return self._shared.setdefault(kind, kind())

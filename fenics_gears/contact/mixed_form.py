@@ -19,7 +19,7 @@ import numpy as np
 from llvmlite.binding import add_symbol
 from numba import carray, cfunc, njit, types
 
-from .addresses import call, form_rows, not_inlined, solver_of, to_number
+from .addresses import call, displacer_of, form_rows, not_inlined, solver_of, to_number
 from .compliance_product import subtract_displaced
 from .laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD, STICK, Tolerance
 
@@ -94,7 +94,6 @@ def solve_sets(equations, iterate):
     gap, slip_before, forces = equations.gap, equations.slip_before, iterate.forces
     n, k, compliance = len(gap), len(equations.load), equations.compliance
     rows, slip, closed = _unknown_forces(equations, iterate.status)
-    form_rows(equations.rows, rows[:closed])
     size = len(rows)
     right_side = np.empty(size + k)
     for a in range(size):
@@ -103,6 +102,7 @@ def solve_sets(equations, iterate):
     weak = not len(slip) or equations.friction <= WEAK_FRICTION
     if weak and size > SMALL_SYSTEM and solve_factored(equations, iterate, rows, slip, right_side):
         return
+    form_rows(equations.rows, rows[:closed])
     # Forces are carried as lengths, `unit` N each, so that all entries are of the size of a stiffness.
     unit = 1.0 / compliance[0, 0] if len(compliance) else 1.0
     matrix = system_of(size + k)
@@ -170,13 +170,13 @@ def solve_factored(equations, iterate, rows, slip, opening):
     if solver == 0 or len(equations.compliance) != m:
         return False
     result = np.empty(m + k)
-    # Of one kind of integers: numpy makes floats of both kinds together.
-    arrays = np.empty(13, dtype=np.int64)
+    # Of one kind of integers: numpy makes floats of both kinds together. The solver forms the rows that it reads.
+    arrays = np.empty(14, dtype=np.int64)
     arrays[0], arrays[1], arrays[2], arrays[3], arrays[4] = factors, m, k, len(rows), len(slip)
     arrays[5], arrays[6] = equations.compliance.ctypes.data, equations.jacobian.ctypes.data
     arrays[7], arrays[8] = equations.stiffness.ctypes.data, equations.load.ctypes.data
     arrays[9], arrays[10], arrays[11] = rows.ctypes.data, slip.ctypes.data, opening.ctypes.data
-    arrays[12] = result.ctypes.data
+    arrays[12], arrays[13] = result.ctypes.data, equations.rows
     done = call(solver, (arrays.ctypes.data,)) == 1
     # Read after the call, for compiled code gives back an array as soon as nothing names it.
     if done and len(arrays):
@@ -288,7 +288,12 @@ def relative_displacement(equations, iterate, first, end):
     forces, coordinates = iterate.forces, iterate.coordinates
     for i in range(end - first):
         displacement[i] = product(jacobian[first + i], coordinates)
-    subtract_displaced(displacement, forces, compliance, first)
+    displacer = displacer_of(equations.rows)
+    if displacer == 0:
+        subtract_displaced(displacement, forces, compliance, first)
+    elif end > first:
+        # Of normal forces alone, all rows of which are asked for.
+        call(displacer, (equations.rows, forces.ctypes.data, displacement.ctypes.data))
 
 
 @njit(cache=True, inline="always")

@@ -23,7 +23,7 @@ from .idler import Part, RowCompliance, units_of
 from .mesh import Mesh
 from .mesh_cycle import Cycle, Deviation, Gaps
 from .mixed_form import StepEquations
-from .operator import ContactOperator, Position
+from .operator import SHARE_FORMED, ContactOperator, Position
 from .places import counted_from
 from .step_solver import StepSolution, solve_step
 from .tooth_pair import PairNodes
@@ -111,6 +111,12 @@ class JoinedPosition(Position):
     def of_wheels(self) -> tuple[slice, ...]:
         return tuple(slice(first, first + own.operator.nodes) for own, first in self.of_meshes)
 
+    @property
+    def bytes(self) -> int:
+        # Without friction over the face meshes are solved one by one: factors between the nodes whose rows are formed.
+        alone = self.operator.rigid_slip is None and self.operator.stored.address
+        return int(SHARE_FORMED * sum(each.bytes for each, _ in self.of_meshes)) if alone else super().bytes
+
 
 class RowCycle(Cycle):
     """Contact equations of all `meshes` of a train, whose steps are of one length in time."""
@@ -150,14 +156,35 @@ class RowCycle(Cycle):
     def share(self, memory: float, once: bool = False) -> None:
         """Let operators take so many bytes, those of single meshes among them; those of all meshes are held
         for a block of steps alone where each position of them is passed `once`. Meshes pass theirs more often."""
-        count = len(self.meshes)
         # Operators grow with the square of their nodes, and those of all meshes have count times as many; how these
-        # feel each other takes as much as each by itself.
+        # feel each other takes as much as each by itself. Meshes that are solved one by one have factors alone together.
+        alone = not self.tangential and len(self.face.widths) > 1
+        count = 1 if alone else len(self.meshes)
         self.kept = Kept(memory * count / (count + 2))
         self._keeps = not once
         self._compliance.kept = Kept(memory / (count + 2))
+        origins = {id(each.cycle.true_place(0)[0].mesh) for each in self.meshes}
+        of_meshes = memory * (2 if alone else 1) / (count + 2)
         for each in self.meshes:
-            each.cycle.kept = Kept(memory / (count * (count + 2)))
+            # Meshes that are like others hold no operators of their own.
+            own = each.cycle.true_place(0)[0].mesh is each.cycle.mesh
+            each.cycle.kept = Kept(of_meshes / len(origins)) if own else Kept()
+
+    def alike_nodes(self, step: int) -> list[tuple[tuple, slice]]:
+        there = [mesh.cycle.true_place(step) for mesh in self.meshes]
+        of_meshes = self._alike(step).of_meshes
+        return [
+            ((cycle.mesh, place), slice(first, first + position.operator.nodes))
+            for (cycle, place), (position, first) in zip(there, of_meshes)
+        ]
+
+    @property
+    def steps_until_alike(self) -> int:
+        there = [mesh.cycle.true_place(0) for mesh in self.meshes]
+        apart = {
+            int(one - other) % cycle.steps for cycle, one in there for like, other in there if like.mesh is cycle.mesh
+        }
+        return min(apart - {0}, default=self.steps)
 
     def position(self, step: int) -> JoinedPosition:
         return self._deviated(step, self._alike(step))

@@ -26,7 +26,7 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from fenics_gears.contact.addresses import Arrays
+from fenics_gears.contact.addresses import Arrays, form_rows
 from fenics_gears.contact.mixed_form import product
 
 from .clock import Clock
@@ -258,6 +258,7 @@ def _by_others(here, rows, forces, other_rows, same):
     for own in range(len(here.forces)):
         if here.forces[own] != 0.0 and same[own % len(same)] < 0:
             displaced = 0.0
+            form_rows(here.contact.rows, np.array([own % len(same)]))
             for row in range(len(rows)):
                 # By rows of loaded nodes: others need not be formed.
                 displaced += compliance[own, rows[row]] * forces[other_rows[row]]
@@ -274,6 +275,7 @@ def _at_other(row, here, rows, there, other_rows):
         there.forces,
         product(here.contact.jacobian[row], there.coordinates),
     )
+    form_rows(here.contact.rows, np.array([row % len(here.contact.gap)]))
     for column in range(len(rows)):
         displacement -= compliance[row, rows[column]] * forces[other_rows[column]]
     return displacement

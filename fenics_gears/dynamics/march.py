@@ -185,9 +185,9 @@ class Marcher:
         if self.batch.opened is not None:
             return steps + 1
         cycle = self.cycle.steps
-        # Positions of a block are held together, also those that are not kept; the sets of the mesh cycle before are
-        # known when it begins.
-        most = min(LONGEST_BLOCK, cycle) if self.cycle.traits.repeats else LONGEST_BLOCK
+        # Positions of a block are held together, also those that are not kept; the sets of the mesh cycle before, or of
+        # meshes that others follow, are known when it begins.
+        most = min(LONGEST_BLOCK, self.stepper.sets.period) if self.cycle.traits.repeats else LONGEST_BLOCK
         longest = int(min(most, max(SHARE_OF_A_BLOCK * self.cycle.kept.most / self._bytes, 1.0)))
         length = cycle * (longest // cycle) or ceil(cycle / ceil(cycle / longest))
         left_of_cycle = cycle - (first - 1) % cycle

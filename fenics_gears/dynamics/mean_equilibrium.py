@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from fenics_gears.contact.addresses import form_rows
 from fenics_gears.contact.laws import OPEN, Tolerance
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.mixed_form import StepEquations
@@ -129,7 +130,10 @@ def _contact_stiffness(position: Position, solution: StepSolution) -> np.ndarray
     """Stiffness (k, k), N/mm, of the contact along its normals."""
     closed = np.flatnonzero(solution.status != OPEN)
     jacobian = position.operator.jacobian[closed]
-    return jacobian.T @ np.linalg.solve(position.operator.stored.rows[np.ix_(closed, closed)], jacobian)
+    stored = position.operator.stored
+    # Meshes that are solved by themselves have no rows of all.
+    form_rows(stored.address, closed)
+    return jacobian.T @ np.linalg.solve(stored.rows[np.ix_(closed, closed)], jacobian)
 
 
 def _velocity(drivetrain: Drivetrain, left: np.ndarray, time_step: float) -> np.ndarray:

@@ -73,6 +73,7 @@ class FirstSets:
     """
 
     def __init__(self, cycle: Cycle, friction: float):
+        self._cycle = cycle
         self._steps = cycle.steps
         self._repeats = cycle.traits.repeats
         self._friction = friction
@@ -80,6 +81,10 @@ class FirstSets:
         self._own: dict[float, np.ndarray] = {}
         self._shared = cycle.shared(KnownSets) if not friction and cycle.alike else KnownSets()
         self._others = dict(self._shared)
+        # By place in a mesh cycle, those of meshes that others follow.
+        self._of_meshes: dict[tuple, np.ndarray] = {}
+        self._alike = cycle.traits.repeats and not friction
+        self.period = cycle.steps_until_alike if self._alike else cycle.steps
         self.remembers = self._repeats or not friction
 
     def remember(self, step: float, status: np.ndarray) -> None:
@@ -89,6 +94,8 @@ class FirstSets:
         if self._repeats:
             self._own[step] = status
             self._own.pop(step - self._steps - 2, None)
+        if self._alike:
+            self._of_meshes |= {place: status[nodes] for place, nodes in self._cycle.alike_nodes(int(step))}
 
     def before(self, step: float) -> np.ndarray:
         """The sets (n,) of a mesh cycle before `step`, or of another run there; empty where none are known."""
@@ -99,9 +106,13 @@ class FirstSets:
         """The sets (N,) before some steps with so many `nodes`, -1 where they are not known; none where none are
         kept."""
         known = np.full(nodes.sum() if self.remembers else 0, -1, dtype=np.int8)
-        for step, end in zip(steps, np.cumsum(nodes).tolist()) if self.remembers else ():
+        ends = np.cumsum(nodes).tolist()
+        for step, end, count in zip(steps, ends, nodes) if self.remembers else ():
             sets = self.before(step)
             known[end - len(sets) : end] = sets
+            if not len(sets) and self._of_meshes:
+                for place, own in self._cycle.alike_nodes(int(step)):
+                    known[end - count : end][own] = self._of_meshes.get(place, -1)
         return known
 
     def near(self, step: float, position: Position) -> np.ndarray:

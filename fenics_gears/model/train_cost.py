@@ -33,9 +33,10 @@ def row_cost(row: RowModel) -> ExpectedCost:
     if row.single:
         return costs[0]
     together = WITH_FACTORS * sum(each.operators**0.5 for each in costs) ** 2
-    # Meshes that are like others share their operators.
+    # Meshes that are like others share their operators. Over the face they are solved one by one without friction.
     own = sum(each.operators for each, mesh in zip(costs, row.meshes) if mesh.like is None)
-    operators = own + (0.0 if row.passes_once else together)
+    alone = row.over_face and row.models[0].scene.friction is None
+    operators = own + (0.0 if row.passes_once or alone else together)
     # Gears are condensed one after the other.
     passing = max(each.passing for each in costs)
     held = CONDENSING_PROGRAM + passing + sum(each.held - each.passing - CONDENSING_PROGRAM for each in costs)

@@ -11,7 +11,7 @@ import numpy as np
 
 from fenics_gears.contact.cycle_alike import CycleAlike
 from fenics_gears.contact.joined_meshes import JoinedMeshes
-from fenics_gears.contact.mesh import step_by_step
+from fenics_gears.contact.mesh import Mesh, step_by_step
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.row import JoinedPosition, MeshOfRow, RowCycle, at_phase
 from fenics_gears.contact.row_in_plane import GearInPlane, RowInPlane
@@ -84,9 +84,11 @@ def row_cycle(row: RowModel, progress: Progress, cache: Cache) -> RowCycle:
     """The contact equations of all meshes of a train that move together, on the bodies of all gears."""
     bodies = list(_bodies(row, progress, cache))
     meshes: list[MeshOfRow] = []
+    made: list[Mesh] = []
     for number, of_mesh in enumerate(row.placed):
         like = _like(row, number, bodies)
-        cycle = _cycle(row, number, bodies, None if like is None else meshes[like].cycle)
+        made.append(_mesh_of(row, number, bodies) if like is None else made[like])
+        cycle = _cycle(row, number, made[number], None if like is None else meshes[like].cycle)
         mesh = _mesh(row.models[number], cycle, of_mesh, row.drivetrain.modes)
         meshes.append(replace(mesh, friction=row.frictions[number]))
     if row.over_face:
@@ -142,15 +144,20 @@ def _like(row: RowModel, number: int, bodies: Sequence[Body | SharedBody]) -> in
     return like if all(one is two for one, two in zip(own, other)) else None
 
 
-def _cycle(row: RowModel, number: int, bodies: Sequence[Body | SharedBody], like: Cycle | None) -> Cycle:
-    """The contact equations of one mesh of a row; `like`: the cycle of the mesh that it is like."""
-    model = row.models[number]
-    phase, ahead = row.phases[number]
+def _mesh_of(row: RowModel, number: int, bodies: Sequence[Body | SharedBody]) -> Mesh:
+    """Two gears of a row in contact, at the phase of a pair."""
     pinion, wheel = (
         body if isinstance(body := bodies[gear], Body) else body.in_mesh(row, gear, number)
         for gear in row.graph.gears[number]
     )
-    mesh = at_phase(mesh_of(model, (pinion, wheel)), phase, ahead, model.resolution.steps_per_mesh_cycle)
+    return mesh_of(row.models[number], (pinion, wheel))
+
+
+def _cycle(row: RowModel, number: int, made: Mesh, like: Cycle | None) -> Cycle:
+    """The contact equations of one mesh of a row; `like`: the cycle of the mesh that it is like."""
+    model = row.models[number]
+    phase, ahead = row.phases[number]
+    mesh = at_phase(made, phase, ahead, model.resolution.steps_per_mesh_cycle)
     return cycle_of(model, mesh) if like is None else CycleAlike(mesh, like, ahead)
 
 

@@ -137,11 +137,13 @@ def _compile_part(name: str) -> None:
     for with_friction in (True, False):
         _evaluate(_steps(with_friction)[0], with_friction)
     # What is compiled already, a run in the plane does not load.
-    from fenics_gears.contact import factored_compliance, formed_rows, joined_rows
+    from fenics_gears.contact import factored_compliance, formed_rows, joined_rows, joined_solver, joined_table
 
     formed_rows.row_former()
     joined_rows.joined_row_former()
     factored_compliance.factored_solver()
+    joined_solver.joined_solver()
+    joined_table.joined_displacer()
     formed_rows.uncertain_slices.compile("(int64, float64[::1], float64)")
     formed_rows.fine_section.compile("(int64, int64)")
 

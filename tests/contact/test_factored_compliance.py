@@ -32,7 +32,7 @@ class Contact:
         result = np.zeros(forces + COORDINATES)
         arrays = self.compliance, self.jacobian, self.stiffness, self.load, rows, slip, opening, result
         sizes = forces, COORDINATES, len(rows), len(slip)
-        numbers = np.array([self.factors.table.ctypes.data, *sizes, *(array.ctypes.data for array in arrays)])
+        numbers = np.array([self.factors.table.ctypes.data, *sizes, *(array.ctypes.data for array in arrays), 0])
         return result if self.solver(factored_solver().address)(numbers.ctypes.data) else None
 
     def expected(self, rows, slip):
