@@ -1,7 +1,7 @@
 """Frames of a session of `gears live`, as somebody sees it: `python -m tests.benchmarks.live_session FOLDER [SCENE]`.
 
 A headless browser opens the page, moves the torque, types a mistake, takes it back, adds a crowning or a relief,
-compares, undoes and asks for the scene and the report. After each a PNG is written, to be looked at; `3_crowned.png` is
+compares, undoes and asks for the scene and the report. After each a PNG is written, to be looked at; `3_shaped.png` is
 docs/pictures/live.png.
 """
 
@@ -30,16 +30,21 @@ def main(folder: str, scene: Path | str = SCENE) -> None:
             browser.value("new Promise(done => setTimeout(done, 1500))")
             browser.photograph(place / f"{name}.png")
 
+        def move(name: str, value: float) -> None:
+            before = browser.value("live.number")
+            moved(browser, name, value)
+            browser.wait(f"live.number > {before}")
+
         def named(which: str) -> str:
             return browser.value(f"live.state.controls.find(each => {which}).name")
 
         opened(browser, address)
         frame("1_opened")
         torque = named(TORQUE)
-        moved(browser, torque, 1.5 * browser.value(f"live.state.controls.find(each => {TORQUE}).number"))
+        move(torque, 1.5 * browser.value(f"live.state.controls.find(each => {TORQUE}).number"))
         frame("2_torque", f"live.state.changed && {SETTLED}")
         shape = named(SHAPE)
-        moved(browser, shape, 6)
+        move(shape, 6)
         frame("3_shaped", SETTLED)
         text = f"document.getElementById('field {shape}')"
         browser.value(f"{text}.value = '-3 um', {text}.dispatchEvent(new Event('change')), true")
@@ -47,7 +52,7 @@ def main(folder: str, scene: Path | str = SCENE) -> None:
         browser.value("document.getElementById('undo').click()")
         frame("5_undone", f"live.state.problems.length === 0 && {SETTLED}")
         browser.value("document.getElementById('compare').click()")
-        moved(browser, torque, browser.value(f"live.state.controls.find(each => {TORQUE}).highest"))
+        move(torque, browser.value(f"live.state.controls.find(each => {TORQUE}).highest"))
         frame("6_compared")
         browser.value("document.getElementById('lines').click()")
         frame("7_python")

@@ -44,8 +44,7 @@ def pinion_in_space(result: xr.Dataset, pair: GearPair, charts: Mapping[str, Seq
         "showticklabels": False,
         "title": {"text": ""},
     }
-    face = {"showticklabels": True, "nticks": 5, "title": {"text": "Along the face (mm)"}}
-    scene: dict[str, Any] = {"xaxis": axis, "yaxis": axis | face, "zaxis": axis}
+    scene: dict[str, Any] = {"xaxis": axis, "yaxis": axis, "zaxis": axis}
     # From the side of the flank that carries.
     side = float(np.sign(flank[0].mean()))
     scene |= {"aspectmode": "data", "camera": {"eye": {"x": 1.9 * side, "y": -1.2, "z": 1.1}}, "dragmode": "turntable"}
