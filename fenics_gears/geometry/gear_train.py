@@ -17,6 +17,7 @@ from math import cos, floor, pi, sin
 import numpy as np
 
 from fenics_gears.errors import GeometryError
+from fenics_gears.inputs.problem import NOTHING_DONE
 
 from .gear import Gear
 from .outline import centreline_angle
@@ -180,15 +181,16 @@ def check_apart(one: Gear, other: Gear, distance: float, words: str) -> None:
     """Raise GeometryError where two gears that do not mesh overlap; `words`: which."""
     if one.internal or other.internal:
         ring, within = (one, other) if one.internal else (other, one)
-        if distance + within.tip_radius > abs(ring.tip_radius):
-            raise GeometryError(
-                f"{words} overlap: their centres are {distance:.4g} mm apart, and the smaller one reaches"
-                f" {distance + within.tip_radius:.4g} mm from the centre of the internal gear, whose tip circle has a"
-                f" radius of {abs(ring.tip_radius):.4g} mm; change the directions of the meshes"
-            )
-        return
-    if distance < one.tip_radius + other.tip_radius:
+        overlap = distance + within.tip_radius > abs(ring.tip_radius)
+        need = (
+            f"and the smaller one reaches {distance + within.tip_radius:.4g} mm from the centre of the internal gear,"
+            f" whose tip circle has a radius of {abs(ring.tip_radius):.4g} mm"
+        )
+    else:
+        overlap = distance < one.tip_radius + other.tip_radius
+        need = f"their tip circles need {one.tip_radius + other.tip_radius:.4g} mm"
+    if overlap:
         raise GeometryError(
-            f"{words} overlap: their centres are {distance:.4g} mm apart, their tip circles need"
-            f" {one.tip_radius + other.tip_radius:.4g} mm; change the directions of the meshes"
+            f"{words} overlap: their centres are {distance:.4g} mm apart, {need}. Change the directions of the meshes."
+            f" {NOTHING_DONE}"
         )

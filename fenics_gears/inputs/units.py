@@ -138,10 +138,16 @@ def quantity(text: str) -> tuple[float, str]:
         ...
     fenics_gears.inputs.units.QuantityError: has the unknown unit "Mm". Did you mean "mm"?
     """
+    return _quantity(text, ())
+
+
+def _quantity(text: str, kinds: tuple[str, ...]) -> tuple[float, str]:
+    """As `quantity` gives it; a unit that is unknown may have been meant for one of `kinds`, or of any if there are
+    none."""
     match = _QUANTITY.fullmatch(text)
     if match is None:
         raise QuantityError(_why_no_number(text))
-    factor, kind = _unit(match[2])
+    factor, kind = _unit(match[2], kinds)
     return float(match[1]) * factor, kind
 
 
@@ -158,7 +164,7 @@ def of_kind(text: str, *kinds: str) -> tuple[float, str]:
     if AN_ANGULAR_SPEED in kinds and _tidy(unit_of(text)).replace(" ", "") in _PER_MINUTE:
         number = quantity(text)[0]
         return 2.0 * math.pi * number, AN_ANGULAR_SPEED
-    number, kind = quantity(text)
+    number, kind = _quantity(text, kinds)
     if kind not in kinds:
         pound = ' A pound of force is "lbf".' if re.search(r"\blb\b", unit_of(text)) else ""
         raise QuantityError(f"is {kind}, not {' or '.join(kinds)}.{pound}")
@@ -229,8 +235,8 @@ def _tidy(written: str) -> str:
 
 
 @functools.cache
-def _unit(written: str) -> tuple[float, str]:
-    """The factor from the unit to N, mm, s, rad, and its kind."""
+def _unit(written: str, kinds: tuple[str, ...] = ()) -> tuple[float, str]:
+    """The factor from the unit to N, mm, s, rad, and its kind; where it is unknown, it was to be one of `kinds`."""
     if not written:
         return 1.0, "a number without unit"
     tidy = _tidy(written)
@@ -238,7 +244,8 @@ def _unit(written: str) -> tuple[float, str]:
         raise QuantityError(f'has the unit "{written[:_LONGEST_UNIT]}", which is not understood.')
     unknown = [word for word in re.findall(r"[A-Za-z]+", tidy) if word not in _UNITS]
     if unknown:
-        raise QuantityError(f'has the unknown unit "{unknown[0]}".{did_you_mean(unknown[0], _UNITS, likeness=0.5)}')
+        meant = did_you_mean(unknown[0], _part_of(kinds), likeness=0.5)
+        raise QuantityError(f'has the unknown unit "{unknown[0]}".{meant}')
     try:
         factor, powers = _product(tidy)
     except ArithmeticError:  # "m^99 m^99" leaves the range of numbers
@@ -246,6 +253,21 @@ def _unit(written: str) -> tuple[float, str]:
     if not 0.0 < factor < math.inf:
         raise QuantityError(f'has the unit "{written}", which is not understood.')
     return factor, _kind(powers)
+
+
+@functools.cache
+def _part_of(kinds: tuple[str, ...]) -> list[str]:
+    """Names of the units that bring a product or quotient nearer to one of these kinds; all where these have none."""
+    powers = [_product(unit)[1] for unit, kind in _KINDS.items() if kind in kinds]
+    if not powers:
+        return list(_UNITS)
+    return [name for name in _UNITS if any(_brings_nearer(_product(name)[1], wanted) for wanted in powers)]
+
+
+def _brings_nearer(powers: Counter, wanted: Counter) -> bool:
+    """Whether fewer powers are left of a kind when it is divided, or multiplied, by a unit of such powers."""
+    left = [sum(abs(wanted[name] + sign * powers[name]) for name in {*wanted, *powers}) for sign in (-1, 1)]
+    return min(left) < sum(map(abs, wanted.values()))
 
 
 def _product(tidy: str) -> tuple[float, Counter]:

@@ -203,6 +203,8 @@ class Model:
             return []
         whole = lcm(*self.scene.gears.teeth)
         words = f' or "{HUNTING_TOOTH_PERIOD}"' if period == whole and self.of_slowest is None else ""
+        if self.of_slowest not in (None, 1):
+            words = ", counted in the slowest mesh,"
         return [
             f"only {run} of the {period} mesh cycles of the common period are run: cycles are not alike, and all"
             f" numbers are of a part of them; motion.mesh_cycles = {ceil(period / (self.of_slowest or 1))}{words} goes"

@@ -1,6 +1,7 @@
 """The scene that a result carries in its attributes, and the scene again from these."""
 
 import logging
+from functools import lru_cache
 from pathlib import Path
 
 import xarray as xr
@@ -39,10 +40,16 @@ def carried_scene(result: xr.Dataset) -> Scene:
     text, name, folder = (str(result.attrs.get(each, "")) for each in ("scene", "scene_name", "scene_folder"))
     if text.startswith(NO_FILE):
         raise SceneError(text.removeprefix("# ").rstrip())
-    scene = scene_from_text(text, name or "scene", directory=Path(folder))
+    # What names files is read with them each time.
+    read = scene_from_text if "scene_files" in result.attrs else _known
+    scene = read(text, name or "scene", directory=Path(folder))
     for words in changed_files(result, scene):
         LOGGER.warning("%s", words)
     return scene
+
+
+# A run that is shown asks several times.
+_known = lru_cache(maxsize=4)(scene_from_text)
 
 
 def changed_files(result: xr.Dataset, scene: Scene) -> list[str]:

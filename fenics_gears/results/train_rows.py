@@ -53,8 +53,10 @@ def _rows_of_meshes(found: xr.Dataset) -> Rows:
             said = f"{angle * own['base_radius_wheel'].item() / MICROMETRE:.4g} um = {angle:.5g} rad"
             rows.append((f"{name}: transmission error, {label}", said, ""))
         if "mean_path_share" in own:
-            mean, most, least = (100.0 * own[f"{each}_path_share"].item() for each in ("mean", "largest", "least"))
-            rows.append((f"{name}: share of the torque on its shaft", f"{mean:.4g} ({least:.4g} to {most:.4g})", "%"))
+            # What is left of a share of nothing is round-off; the sum takes the sign of a zero.
+            shares = [100.0 * own[f"{each}_path_share"].item() for each in ("mean", "least", "largest")]
+            mean, least, most = (f"{round(each, 6) + 0.0:.4g}" for each in shares)
+            rows.append((f"{name}: share of the torque on its shaft", f"{mean} ({least} to {most})", "%"))
         rows += _of_meshes(str(name), own)
     return rows
 

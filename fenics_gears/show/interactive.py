@@ -4,6 +4,7 @@ Only its browser library is used: plotly's Python objects take longer to make th
 """
 
 import html
+from textwrap import wrap
 from typing import Any
 
 import numpy as np
@@ -20,6 +21,9 @@ POWERS = np.array([float(f"1e{n}") for n in range(300)])
 LEGEND_ROW = 19
 LETTERS_A_ROW = 120
 FLAG_ROW = 17
+# Of a letter of an axis' title, and of a further line of it.
+LETTER = 7.0
+LINE = 17
 
 
 def legend_rows(chart: Chart) -> int:
@@ -58,7 +62,10 @@ def _layout(chart: Chart) -> dict:
         "gridcolor": GRID, "linecolor": GREY, "showline": True, "ticks": "outside", "tickcolor": GREY, "ticklen": 4,
         "zerolinecolor": "#C4C9CE", "zerolinewidth": 1, "exponentformat": "none", "separatethousands": True,
     }  # fmt: skip
-    titles = [{"text": escaped(words), "font": {"size": 13.5}} for words in (chart.x_title, chart.y_title)]
+    # A title that is longer than its axis would be cut off.
+    beside = wrap(chart.y_title, int(height(chart) / LETTER)) or [""]
+    texts = escaped(chart.x_title), "<br>".join(map(escaped, beside))
+    titles = [{"text": text, "font": {"size": 13.5}} for text in texts]
     x = axis | {"title": titles[0] | {"standoff": 8}, "hoverformat": ".5~g"}
     y = axis | {"title": titles[1] | {"standoff": 6}, "hoverformat": ",.5~g"}
     if chart.x_range is not None:
@@ -87,7 +94,12 @@ def _layout(chart: Chart) -> dict:
         "font": {"family": FONT, "size": 13, "color": DARK},
         # One left margin for all charts, so that the time axes of charts below each other match; above, room for
         # plotly's buttons and the legend below them.
-        "margin": {"l": 80, "r": 16, "t": max(48 if bars else 26, 21 + LEGEND_ROW * legend_rows(chart)), "b": 46},
+        "margin": {
+            "l": 80 + LINE * (len(beside) - 1),
+            "r": 16,
+            "t": max(48 if bars else 26, 21 + LEGEND_ROW * legend_rows(chart)),
+            "b": 46,
+        },
         "showlegend": chart.has_legend,
         "legend": legend,
         "hovermode": "closest" if chart.field is not None or chart.equal else "x",

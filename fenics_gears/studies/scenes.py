@@ -114,8 +114,11 @@ class Models:
                 own[effect.section] = effect.data_of(section, self._directory)
         if problems:
             return None
+        scene = replace(model.scene, **own)
+        # As in `model_of_tree`.
+        scene.__dict__["text"] = as_toml(tree)
         try:
-            return with_reliefs(model, replace(model.scene, **own))
+            return with_reliefs(model, scene)
         except SceneError:
             return None
 

@@ -129,6 +129,23 @@ def test_what_is_no_quantity_is_named(text, fragment):
     assert fragment in str(error.value)
 
 
+@pytest.mark.parametrize(
+    ("text", "kind", "hint"),
+    [
+        ("3 KW", "a power", ' Did you mean "kW"?'),
+        ("3 kVA", "a torque", ""),
+        ("3 kPs", "a length", ""),
+        ("3 kgs mm^2", "a moment of inertia", ' Did you mean "kg"?'),
+        ("3 N/mmm", "a stiffness", ' Did you mean "mm"?'),
+    ],
+)
+def test_a_unit_that_is_meant_may_make_the_kind(text, kind, hint):
+    """By dimensions."""
+    with pytest.raises(QuantityError) as error:
+        of_kind(text, kind)
+    assert str(error.value).partition(".")[2] == hint
+
+
 UNIT_LIKE = st.text(alphabet="0123456789.eE+-*/^() mNkgsradHzP°µ²\n[]{}'\"", max_size=20)
 
 

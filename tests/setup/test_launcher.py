@@ -233,7 +233,8 @@ def test_failure_of_apt_is_one_sentence_with_its_reason(checkout, machine, print
 def test_interrupted_set_up_leaves_nothing_that_looks_finished(checkout, machine):
     """Exit code 130 and no mark."""
     # The stand-in of apt reaches all of the call's processes, as the terminal's Ctrl-C does.
-    apt = "kill -INT 0; exec sleep 30"
+    # A second later: bash 5.2 may spin where a signal comes while it still starts the commands of a pipe.
+    apt = "sleep 1; kill -INT 0; exec sleep 30"
     environment = machine(**DEBIAN, apt_get=apt, sleep='exec /bin/sleep "$@"')
     started = subprocess.Popen(
         [checkout / "gears", "run"], env=environment, stderr=subprocess.PIPE, text=True, start_new_session=True

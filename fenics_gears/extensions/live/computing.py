@@ -79,6 +79,9 @@ class Computing:
         self._store = GearStore()
         # Of first looks at trains, which have operators of their own.
         self._looks = GearStore()
+        # Scenes to be within reach, and the steps for which their windows are known.
+        self._reach: tuple[Any, ...] = ()
+        self._reached: set[int | None] = set()
         self._name = name
         self._result: Any = None
         self._waiting: list[Work] = []
@@ -159,7 +162,12 @@ class Computing:
             return self._models.of(with_steps(tree, work.steps) if few else tree)
 
         models = [model(work.tree)]
-        for tree in work.reach:
+        if work.reach:
+            self._reach = work.reach
+        # First looks at trains share no operators with what follows.
+        new = work.steps not in self._reached
+        self._reached.add(work.steps)
+        for tree in self._reach if new else ():
             # A slider may go where there is no scene.
             with suppress(NoScene):
                 models.append(model(tree))

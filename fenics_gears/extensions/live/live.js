@@ -40,10 +40,10 @@ const told = {
     element("start").disabled = element("compare").disabled = !message.changed;
     element("python").querySelector("pre").textContent = message.python;
     fields(message);
-    if (message.problems.length) say("a mistake: the result below is of the scene before it");
+    if (message.problems.length) say("a mistake: the result is of the scene before");
   },
   progress: message => {
-    if (message.number === live.number) say(message.stage || "computing", message.done, message.total);
+    if (message.number === live.number) say(STAGES[message.stage] || message.stage || "computing", message.done, message.total);
   },
   start: message => { live.start = message.result; if (live.result) draw(live.result); },
   result: message => {
@@ -58,6 +58,9 @@ const told = {
   names: message => element("names").replaceChildren(...message.names.map(name => new Option(name, name))),
   unknown: message => { element("unknown").textContent = message.message; element("unknown").hidden = false; },
 };
+
+// What the program calls its stages, where a designer would not.
+const STAGES = { march: "solving the steps", compile: "compiling", "propose lead modifications": "looking for a better crowning" };
 
 // Fields: one element each, kept while the page lives, so that a slider that is being moved stays in the hand.
 const known = new Map();
@@ -136,8 +139,14 @@ const draw = result => {
     const lines = before ? before.figure.data.filter(trace => ["scatter", "bar", undefined].includes(trace.type)) : [];
     const old = lines.map(trace => ({ ...trace, name: "start", showlegend: false, hoverinfo: "skip", line: { ...trace.line, color: GREY, width: 1.2 }, marker: { ...trace.marker, color: GREY } }));
     const layout = { ...chart.figure.layout, height: Math.min(chart.height, 320), uirevision: "kept", barmode: "group" };
-    // Both have to be seen.
-    if (old.length && layout.yaxis) layout.yaxis = { ...layout.yaxis, range: both(layout.yaxis.range, before.figure.layout.yaxis?.range) };
+    // Both have to be seen; curves that are far apart would both be flat, so those of the start come nearer.
+    const range = layout.yaxis?.range, by = old.length ? moved(layout.yaxis, before.figure.layout.yaxis?.range) : 0;
+    if (old.length && layout.yaxis) layout.yaxis = { ...layout.yaxis, range: both(range, before.figure.layout.yaxis?.range?.map(end => end + by)) };
+    if (by) {
+      for (const trace of old) trace.y = trace.y.map(value => value === null ? null : value + by);
+      const unit = /\((.*)\)/.exec(layout.yaxis.title.text)?.[1] || "";
+      figure.querySelector(".note").textContent += ` The grey curve of the start is moved by ${by.toPrecision(3)} ${unit}.`;
+    }
     Plotly.react(plot, [...old, ...chart.figure.data], layout, QUIET);
   }
   const there = new Set(result.charts.map(chart => chart.name));
@@ -148,6 +157,11 @@ const draw = result => {
   element("warnings").replaceChildren(...result.warnings.map(words => { const item = document.createElement("li"); item.textContent = words; return item; }));
   turning.pair = result.drawing;
   if (!turning.on) paint();
+};
+const moved = (axis, other) => {
+  const own = axis?.range;
+  if (!own || !other || axis.type === "log" || own[0] <= other[1] && other[0] <= own[1]) return 0;
+  return (own[0] + own[1] - other[0] - other[1]) / 2;
 };
 const both = (one, other) => one && other ? [Math.min(one[0], other[0]), Math.max(one[1], other[1])] : one;
 const frame = name => {

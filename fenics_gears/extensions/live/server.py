@@ -119,7 +119,7 @@ class LiveServer:
         self._sockets.add(socket)
         try:
             for message in self.session.messages:
-                await socket.send_str(json.dumps(message, allow_nan=False))
+                await socket.send_str(json.dumps(message, allow_nan=False, separators=(",", ":")))
             async for received in socket:
                 if received.type == WSMsgType.TEXT:
                     self.session.do(json.loads(received.data))
@@ -144,7 +144,7 @@ class LiveServer:
         self.session.answered(answer)
 
     def _tell(self, message: Any) -> None:
-        text = json.dumps(message, allow_nan=False)
+        text = json.dumps(message, allow_nan=False, separators=(",", ":"))
         for socket in set(self._sockets):
             task = asyncio.ensure_future(socket.send_str(text))
             task.add_done_callback(lambda done: done.cancelled() or done.exception())

@@ -41,7 +41,7 @@ def shown(result: xr.Dataset, pair: GearPair) -> dict[str, Any]:
         "numbers": [[label, value] for label, value, _ in result_rows(result)],
         "warnings": str(result.attrs.get("warnings", "")).splitlines(),
         "drawing": _drawing(pair),
-        "tooth": pinion_in_space(result),
+        "tooth": pinion_in_space(result, pair, dict(subjects)),
     }
 
 

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
+from functools import lru_cache
 from math import isfinite
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
-from fenics_gears import Gear, tooth_outline
-from fenics_gears.charts import Field, tooth_points
-from fenics_gears.shown import ShownRun, charts_over_face, pressure_maps
+from fenics_gears import Gear, GearPair, tooth_outline
+from fenics_gears.charts import Chart, Field, tooth_points
+from fenics_gears.shown import ShownRun
 
 TEETH = 5
 ROWS = 40
@@ -20,26 +22,20 @@ STAND_OFF = 0.01
 _LIGHT = {"ambient": 0.55, "diffuse": 0.7, "specular": 0.15}
 
 
-def pinion_in_space(result: xr.Dataset) -> dict[str, Any] | None:
+def pinion_in_space(result: xr.Dataset, pair: GearPair, charts: Mapping[str, Sequence[Chart]]) -> dict[str, Any] | None:
     """Some teeth of the pinion, the largest pressure while it is in mesh on the middle one; None without contact
-    fields."""
+    fields. `charts` of the result by subject."""
     run = ShownRun(result)
-    pair = run.pair
-    field = None if pair is None else _field(run)
-    if pair is None or field is None:
+    field = _field(run, pair, charts)
+    if field is None:
         return None
-    half = 0.5 * pair.face_width
-    twist = pair.slope / pair.pinion.base_radius
-    body = _swept(_teeth(pair.pinion), np.linspace(-half, half, FACE_POINTS), twist)
-    flank, pressure = _flank(pair.pinion, field, twist, run.on_coast_flanks)
-    grey = [[0.0, "#C9D1D9"], [1.0, "#C9D1D9"]]
-    steel = {"colorscale": grey, "showscale": False, "hoverinfo": "skip", "surfacecolor": np.zeros(body[0].shape)}
+    flank, pressure = _flank(pair.pinion, field, _twist(pair), run.on_coast_flanks)
     scale = [[place / (len(field.colours) - 1), colour] for place, colour in enumerate(field.colours)]
     bar = {"title": {"text": field.title, "side": "right"}, "thickness": 14, "len": 0.8}
     pressed = {"surfacecolor": pressure, "colorscale": scale, "cmin": 0.0, "cmax": field.limit, "colorbar": bar}
     data = [
-        {"type": "surface", "lighting": _LIGHT} | _points(surface) | {name: _listed(each) for name, each in own.items()}
-        for surface, own in ((body, steel), (flank, pressed))
+        {"type": "surface", "lighting": _LIGHT} | own
+        for own in (_body(pair), _points(flank) | {name: _listed(each) for name, each in pressed.items()})
     ]
     axis = {
         "showbackground": False,
@@ -48,26 +44,37 @@ def pinion_in_space(result: xr.Dataset) -> dict[str, Any] | None:
         "showticklabels": False,
         "title": {"text": ""},
     }
-    face = {"showticklabels": True, "nticks": 5, "title": {"text": "Along the face (mm)"}}
-    scene: dict[str, Any] = {"xaxis": axis, "yaxis": axis | face, "zaxis": axis}
+    scene: dict[str, Any] = {"xaxis": axis, "yaxis": axis, "zaxis": axis}
     # From the side of the flank that carries.
     side = float(np.sign(flank[0].mean()))
     scene |= {"aspectmode": "data", "camera": {"eye": {"x": 1.9 * side, "y": -1.2, "z": 1.1}}, "dragmode": "turntable"}
     return {"data": data, "layout": {"scene": scene, "margin": {"l": 0, "r": 0, "t": 0, "b": 0}}}
 
 
-def _field(run: ShownRun) -> Field | None:
+@lru_cache(maxsize=2)
+def _body(pair: GearPair) -> dict[str, Any]:
+    """The teeth, which are alike after each move that leaves the gears."""
+    half = 0.5 * pair.face_width
+    body = _swept(_teeth(pair.pinion), np.linspace(-half, half, FACE_POINTS), _twist(pair))
+    grey = [[0.0, "#C9D1D9"], [1.0, "#C9D1D9"]]
+    look = {"colorscale": grey, "showscale": False, "hoverinfo": "skip"}
+    return _points(body) | look | {"surfacecolor": _listed(np.zeros(body[0].shape))}
+
+
+def _twist(pair: GearPair) -> float:
+    """Turn of the pinion's teeth along the face, rad/mm."""
+    return pair.slope / pair.pinion.base_radius
+
+
+def _field(run: ShownRun, pair: GearPair, charts: Mapping[str, Sequence[Chart]]) -> Field | None:
     """The largest pressure over face and diameter of the pinion; in the plane it is alike all over the face."""
-    if run.over_face:
-        patterns = list(charts_over_face(run)["Contact pattern"](run))
-        return patterns[0].field if patterns else None
-    maps = pressure_maps(run)
-    field = maps[0].field if maps else None
-    if field is None or run.pair is None:
-        return None
+    drawn = charts.get("Contact pattern" if run.over_face else "Contact pressure on the flanks")
+    field = drawn[0].field if drawn else None
+    if field is None or run.over_face:
+        return field
     values = np.nan_to_num(field.values, nan=-np.inf).max(axis=1)
-    diameters = 2.0 * run.pair.pinion.radius(np.radians(field.y))
-    half = 0.5 * run.pair.face_width
+    diameters = 2.0 * pair.pinion.radius(np.radians(field.y))
+    half = 0.5 * pair.face_width
     alike = np.where(np.isfinite(values), values, np.nan)[:, None]
     return Field(np.array([-half, half]), diameters, alike, field.title, field.limit, field.colours)
 
