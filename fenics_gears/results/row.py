@@ -20,6 +20,7 @@ from .dataset import coordinates_of, variables_of
 from .key_numbers import key_numbers
 from .recorder import Recorder
 from .train import OF_ENERGY, MeshResult
+from .validity import warnings_of_mesh
 
 if TYPE_CHECKING:
     from .train_shafts import ResultOfShafts
@@ -62,7 +63,7 @@ class RowResult:
             curves = {name: (dims, values, labels) for name, dims, values, labels in variables_of(recorder, 0)}
             places = _along_the_row(coordinates_of(recorder, recorder.arrays))
             numbers = self._numbers(recorder)
-            said = self._said(march)
+            said = [*warnings_of_mesh(recorder), *self._said(march)]
             for along in recorder.along_face:
                 labelled = xr.Dataset(curves, places)
                 numbers |= _finite(along.numbers(labelled, numbers))

@@ -28,6 +28,10 @@ from .gear_store import GearStore
 from .simulate import settled_run
 
 Keep = Callable[[MeshOfScene, xr.Dataset], None]
+RAMPED = (
+    ". [speed_ramp] accelerates the masses too, which can pull the teeth apart or wedge them. Allowed: a longer ramp"
+    " (motion.mesh_cycles), an end_speed nearer to motion.input_speed, or a higher torque"
+)
 
 
 def simulate_train(
@@ -66,7 +70,7 @@ def simulate_train(
                 continue
             result = settled_run(row.models[0], progress, cache=cache, preparation=preparation)
         except ContactNotConverged as failure:
-            failure.reason = f"{mesh.name}: {failure.reason}"
+            failure.reason = f"{mesh.name}: {failure.reason}{RAMPED if row.ramp is not None else ''}"
             failure.partial = None
             raise
         if not result.attrs["complete"]:

@@ -288,6 +288,15 @@ def test_a_centre_distance_that_leaves_no_teeth_is_named():
         scene_of({"helix_angle": "44 deg", "pinion_hand": "right", "centre_distance": "76 mm"})
 
 
+def test_profile_shifts_that_fit_at_no_centre_distance_are_named():
+    """inv(alpha_wt) = 0 is at a sum of -(z1 + z2) inv(20 deg)/(2 tan 20 deg) = -1.024 for 50 teeth."""
+    below = {"profile_shift": -0.6}
+    with pytest.raises(
+        GeometryError, match=r"shifts of -0.6 and -0.6 .* sum must be above -1.024 .* gears.pinion.prof"
+    ):
+        scene_of(None, below, below)
+
+
 def rows_of(scene):
     return {name: value for name, value, _ in characteristics(gear_pair(scene.gears), scene.measured_over)}
 
