@@ -22,10 +22,10 @@ from fenics_gears.geometry.gear_data import PAIR_STIFFNESS, mean_youngs_modulus
 from fenics_gears.geometry.involute import arc_length, roll_angle_at_arc_length
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.scene.accuracy import (
-    MOST_CONTACT_NODES,
     COARSEST_ELEMENT,
     FINEST_ELEMENT,
     FINEST_RESOLVED,
+    MOST_CONTACT_NODES,
     MOST_STEPS_PER_MESH_CYCLE,
     NODE_SPACING,
     RESOLVED,
