@@ -11,6 +11,7 @@ import xarray as xr
 
 from fenics_gears.contact.errors import ContactNotConverged
 from fenics_gears.elasticity.cache import Cache
+from fenics_gears.errors import SceneError
 from fenics_gears.inputs.section import tree_of
 from fenics_gears.inputs.written import as_toml
 from fenics_gears.model.train import TrainModel, train_model_of
@@ -58,6 +59,11 @@ def simulate_train(
     >>> found["mesh"].values.tolist()
     ['idler: gears 1 and 2', 'idler: gears 2 and 3']
     """
+    if not isinstance(scene, TrainScene | TrainModel):
+        raise SceneError(
+            f"simulate_train takes a train, from load_train, not an object of type {type(scene).__name__}. The scene of a"
+            " pair is read by load_scene and run by simulate"
+        )
     progress = progress or SilentProgress()
     model = scene if isinstance(scene, TrainModel) else train_model_of(scene)
     chosen: dict[str, Accuracy] = {}
