@@ -116,8 +116,8 @@ def settled(scene: Scene | Model, progress: Progress) -> SettledScene:
     known = scene.scene if isinstance(scene, Model) else scene
     if not isinstance(known, Scene):
         raise SceneError(
-            f"simulate takes the scene of a pair, from load_scene, not an object of type {type(known).__name__}. A train"
-            " is read by load_train and run by simulate_train"
+            f"simulate takes the scene of a pair, from load_scene, not an object of type {type(known).__name__}. A"
+            " train is read by load_train and run by simulate_train"
         )
     target = known.accuracy.target
     if target is None:

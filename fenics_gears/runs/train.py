@@ -61,8 +61,8 @@ def simulate_train(
     """
     if not isinstance(scene, TrainScene | TrainModel):
         raise SceneError(
-            f"simulate_train takes a train, from load_train, not an object of type {type(scene).__name__}. The scene of a"
-            " pair is read by load_scene and run by simulate"
+            f"simulate_train takes a train, from load_train, not an object of type {type(scene).__name__}. The scene of"
+            " a pair is read by load_scene and run by simulate"
         )
     progress = progress or SilentProgress()
     model = scene if isinstance(scene, TrainModel) else train_model_of(scene)
