@@ -25,6 +25,7 @@ from fenics_gears.scene.accuracy import (
     COARSEST_ELEMENT,
     FINEST_ELEMENT,
     FINEST_RESOLVED,
+    MOST_CONTACT_NODES,
     MOST_STEPS_PER_MESH_CYCLE,
     NODE_SPACING,
     RESOLVED,
@@ -268,9 +269,13 @@ def _unresolved(resolution: Resolution) -> list[str]:
     grid = resolution.contact_grid
     sentences = []
     enough = half_width / resolution.resolved
+    nodes = ceil(grid.length / enough) + 1
+    more = (
+        f"contact_nodes = {nodes}" if nodes <= MOST_CONTACT_NODES else "contact_nodes and contact_length of the default"
+    )
     for name, size, remedy in (
         ("accuracy.flank_element_size", resolution.flank_element_size, f'flank_element_size = "{enough:.2g} mm"'),
-        ("the spacing of accuracy.contact_nodes", grid.spacing, f"contact_nodes = {ceil(grid.length / enough) + 1}"),
+        ("the spacing of accuracy.contact_nodes", grid.spacing, more),
     ):
         if size <= ROUNDED * enough:
             continue

@@ -22,7 +22,7 @@ from .planetary import result_of_set
 from .recorder import Recorder
 from .train import OF_ENERGY, MeshResult
 from .train_shafts import ShaftsOfTrain
-from .validity import locking
+from .validity import locking, warnings_of_mesh
 
 if TYPE_CHECKING:
     from .train_shafts import ResultOfShafts
@@ -65,7 +65,7 @@ class RowResult:
             curves = {name: (dims, values, labels) for name, dims, values, labels in variables_of(recorder, 0)}
             places = _along_the_row(coordinates_of(recorder, recorder.arrays))
             numbers = self._numbers(recorder)
-            said = self._said(march)
+            said = [*warnings_of_mesh(recorder), *self._said(march)]
             if recorder.model.friction_coefficient * recorder.cycle.longest_lever >= 1.0:
                 said += locking(self._slowest.cycle, march)
             for along in recorder.along_face:

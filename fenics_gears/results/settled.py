@@ -114,4 +114,4 @@ def _warning(slowest: Vibration, rate: float, left: float, needed: int | None, r
             " have it in them; [damping] lets it die down"
         )
     cycles = "" if needed is None else f"; motion.mesh_cycles = {needed} leaves {DIED_DOWN:.0%}"
-    return f"the start has not died down where the numbers begin: {left:.2g} of {mode} is left{cycles}"
+    return f"the start has not died down where the numbers begin: {100.0 * left:.3g}% of {mode} is left{cycles}"

@@ -23,6 +23,7 @@ from .layout import OF_OUTPUTS, OVERALL
 from .mesh_of_train import SHARED, over_meshes
 from .path_shares import path_shares
 from .sets_in_train import MESH, side_by_side
+from .validity import worst_first
 
 if TYPE_CHECKING:
     from .train_shafts import ResultOfShafts
@@ -199,7 +200,7 @@ def _attributes(model: TrainModel, meshes: Sequence[MeshResult], overall: np.nda
         "numbers_version": NUMBERS_VERSION,
         "complete": 1,
         **_folder(model),
-        "warnings": "\n".join(dict.fromkeys([*said, *_of_rows(model)])),
+        "warnings": "\n".join(worst_first(dict.fromkeys([*said, *_of_rows(model)]))),
         "mean_overall_transmission_error": mean,
         "peak_to_peak_overall_transmission_error": float(np.ptp(overall)),
         "newton_iterations_total": _iterations(model, meshes),

@@ -67,15 +67,24 @@ def warnings_of(recorder: Recorder, march: March, result: RunResult) -> list[str
     drivetrain = recorder.model.drivetrain
     clock = recorder.model.clock
     watched = recorder.watched
-    of_flanks = [*_window(cycle, watched), *_rank(watched)] if cycle.traits.nodes_on_flanks and recorder.steps else []
+    of_mesh = warnings_of_mesh(recorder)
     if cycle.traits.has_pressure and recorder.steps:
-        of_flanks += warnings_of_pressure(recorder.model.scene, watched, result.attrs)
+        of_mesh += warnings_of_pressure(recorder.model.scene, watched, result.attrs)
     for along in recorder.along_face:
-        of_flanks += along.warnings(result.dataset)
+        of_mesh += along.warnings(result.dataset)
     return [
-        *_passed_through(cycle, result), *of_flanks, *_rotation(result), *_wedged(cycle, result),
-        *_separation(cycle, drivetrain, march, clock, result), *locking(cycle, march), *_uniqueness(march),
+        *of_mesh, *_wedged(cycle, result), *_separation(cycle, drivetrain, march, clock, result),
+        *locking(cycle, march), *_uniqueness(march),
     ]  # fmt: skip
+
+
+def warnings_of_mesh(recorder: Recorder) -> list[str]:
+    """What of it one mesh tells, of a pair or among those of a train."""
+    cycle = recorder.cycle
+    curves = recorder.arrays
+    watched = recorder.watched
+    of_flanks = [*_window(cycle, watched), *_rank(watched)] if cycle.traits.nodes_on_flanks and recorder.steps else []
+    return [*_passed_through(cycle, curves), *of_flanks, *_rotation(curves)]
 
 
 def _window(cycle: Cycle, watched: Watched) -> list[str]:
@@ -102,9 +111,9 @@ def _rank(watched: Watched) -> list[str]:
     ]
 
 
-def _passed_through(cycle: Cycle, result: RunResult) -> list[str]:
+def _passed_through(cycle: Cycle, curves: Watched) -> list[str]:
     pitch = abs(cycle.pair.wheel.angular_pitch)
-    largest = np.abs(result["transmission_error"]).max(initial=0.0)
+    largest = np.abs(curves["transmission_error"]).max(initial=0.0)
     if largest <= pitch:
         return []
     return [
@@ -113,16 +122,16 @@ def _passed_through(cycle: Cycle, result: RunResult) -> list[str]:
     ]
 
 
-def _rotation(result: RunResult) -> list[str]:
+def _rotation(curves: Watched) -> list[str]:
     sentences = []
-    for name, rotations in zip(GEARS, result["rotation"].T):
+    for name, rotations in zip(GEARS, curves["rotation"].T):
         largest = np.abs(rotations).max(initial=0.0)
         if largest > LARGEST_ROTATION:
             sentences.append(
                 f"the {name} turns by {largest:.3g} rad from its nominal motion; the model takes such rotations as"
                 f" small (below {LARGEST_ROTATION} rad): stiffen the shafts or lower the torque"
             )
-    tilts = [np.abs(result[name]).max(axis=0, initial=0.0) for name in ("tilt_x", "tilt_y") if name in result]
+    tilts = [np.abs(curves[name]).max(axis=0, initial=0.0) for name in ("tilt_x", "tilt_y") if name in curves]
     for name, largest in zip(GEARS, np.max(tilts, axis=0) if tilts else ()):
         if largest > LARGEST_ROTATION:
             sentences.append(

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import xarray as xr
 
 from fenics_gears.elasticity.cache import Cache
-from fenics_gears.errors import MemoryEnded
+from fenics_gears.errors import MemoryEnded, SceneError
 from fenics_gears.model.model import Model
 from fenics_gears.results.dataset import RunResult
 from fenics_gears.scene.data import Scene
@@ -113,6 +113,11 @@ class SettledScene:
 def settled(scene: Scene | Model, progress: Progress) -> SettledScene:
     """The scene with settings in place of its target, where it has one; raises TargetNotReached where none keep it."""
     known = scene.scene if isinstance(scene, Model) else scene
+    if not isinstance(known, Scene):
+        raise SceneError(
+            f"simulate takes the scene of a pair, from load_scene, not an object of type {type(known).__name__}. A"
+            " train is read by load_train and run by simulate_train"
+        )
     target = known.accuracy.target
     if target is None:
         return SettledScene(scene)

@@ -11,6 +11,7 @@ import xarray as xr
 
 from fenics_gears.contact.errors import ContactNotConverged
 from fenics_gears.elasticity.cache import Cache
+from fenics_gears.errors import SceneError
 from fenics_gears.inputs.section import tree_of
 from fenics_gears.inputs.written import as_toml
 from fenics_gears.model.train import TrainModel, row_of, train_model_of
@@ -30,6 +31,10 @@ from .simulate import settled_run
 # What the result says of each mesh for which settings were chosen.
 OF_TARGET = ("target", "estimated_error", "target_runs")
 Keep = Callable[[MeshOfScene, xr.Dataset], None]
+RAMPED = (
+    ". [speed_ramp] accelerates the masses too, which can pull the teeth apart or wedge them. Allowed: a longer ramp"
+    " (motion.mesh_cycles), an end_speed nearer to motion.input_speed, or a higher torque"
+)
 
 
 def simulate_train(
@@ -56,6 +61,11 @@ def simulate_train(
     >>> found["mesh"].values.tolist()
     ['idler: gears 1 and 2', 'idler: gears 2 and 3']
     """
+    if not isinstance(scene, TrainScene | TrainModel):
+        raise SceneError(
+            f"simulate_train takes a train, from load_train, not an object of type {type(scene).__name__}. The scene of"
+            " a pair is read by load_scene and run by simulate"
+        )
     progress = progress or SilentProgress()
     model = scene if isinstance(scene, TrainModel) else train_model_of(scene)
     chosen: dict[str, Accuracy] = {}
@@ -79,7 +89,7 @@ def simulate_train(
                 continue
             result = settled_run(row.models[0], progress, cache=cache, preparation=preparation)
         except ContactNotConverged as failure:
-            failure.reason = f"{mesh.name}: {failure.reason}"
+            failure.reason = f"{mesh.name}: {failure.reason}{RAMPED if row.ramp is not None else ''}"
             failure.partial = None
             raise
         if not result.attrs["complete"]:

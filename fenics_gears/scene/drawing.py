@@ -14,9 +14,11 @@ from math import cos, pi, tan
 from types import ModuleType
 
 from fenics_gears.effects.tooth_elasticity import material_of
+from fenics_gears.errors import GeometryError
 from fenics_gears.geometry.gear import DECIMALS_IN_MODULES
 from fenics_gears.geometry.gear_checks import refuse, tip_radius_with_room
 from fenics_gears.geometry.gear_data import RACKS, ROUNDING, USUAL_BORE, GearData, GearPairData
+from fenics_gears.geometry.involute import sum_of_profile_shifts
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.inputs.tree import GEARS, MODULES, PRESSURE_ANGLES, in_normal_section
 
@@ -162,6 +164,8 @@ def _centre_distance(pair: Gears, shifts: Sequence[float], cut: Sequence[float])
     opened = pair.backlash is not None and pair.pinion.measure is not None
     rack_pair = _rack_pair(pair, cut if opened else shifts, 1.0)
     distance = rack_pair.centre_distance_without_backlash
+    if abs(distance) <= abs(sum(rack_pair.base_radii)):
+        _refuse_shifts(pair, shifts, rack_pair)
     words = "inv(alpha_wt) = inv(alpha_t) + 2 (x1 + x2) tan(alpha_n)/(z1 + z2), without backlash"
     if opened:
         # Imported here: hardly a scene needs it.
@@ -174,6 +178,19 @@ def _centre_distance(pair: Gears, shifts: Sequence[float], cut: Sequence[float])
         if missing(distance) > 0.0:
             distance = brentq(missing, distance, distance + 10.0 * pair.backlash + pair.module)
     return distance, [Derived("centre distance", abs(distance), "mm", words)]
+
+
+def _refuse_shifts(pair: Gears, shifts: Sequence[float], rack_pair: GearPair) -> None:
+    """Raise GeometryError: the operating pressure angle of these profile shifts would be less than zero."""
+    pinion = rack_pair.pinion
+    angles = pinion.pressure_angle, pinion.normal_pressure_angle
+    limit = sum_of_profile_shifts(pair.pinion.teeth + pair.wheel.teeth, 0.0, *angles)
+    first, second = shifts
+    raise GeometryError(
+        f"pair: profile shifts of {first:.4g} and {second:.4g} fit at no centre distance: their sum must be"
+        f" {'above' if pair.wheel.teeth > 0 else 'below'} {limit:.4g} with these teeth. Change"
+        " gears.pinion.profile_shift or gears.wheel.profile_shift"
+    )
 
 
 def _thinned(pair: Gears, cut: Sequence[float], distance: float) -> tuple[Sequence[float], list[Derived]]:

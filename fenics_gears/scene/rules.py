@@ -118,7 +118,8 @@ def _errors_are_small(tree: Tree) -> Broken:
         values = (written if isinstance(written, list) else [written]) if allowed.small else []
         size = max((abs(quantity_in(value) or 0.0) for value in values), default=0.0)
         if size > largest > 0.0:
-            message = f"is too large an error of manufacture for a module of {module:g} mm: up to {size:.4g} mm."
+            reached = f": up to {size:.4g} mm" if isinstance(written, list) else ""
+            message = f"is too large an error of manufacture or modification for a module of {module:g} mm{reached}."
             yield path, f"{message} Allowed: up to {largest:g} mm."
 
 

@@ -16,6 +16,7 @@ import shutil
 import signal
 import subprocess
 import sys
+import threading
 from contextlib import suppress
 from functools import cache
 from pathlib import Path
@@ -121,7 +122,8 @@ def _compiling() -> list[int]:
     paths = os.pathsep.join([str(PACKAGE.parent), *filter(None, [os.environ.get("PYTHONPATH")])])
     environment = os.environ | {"PYTHONPATH": paths}
     command = [sys.executable, "-P", "-m", f"{__package__}.warm_up"]
-    processes = [subprocess.Popen([*command, part], env=environment, stdin=subprocess.DEVNULL) for part in PARTS]
+    # Its standard input ends with this process, however that ends.
+    processes = [subprocess.Popen([*command, part], env=environment, stdin=subprocess.PIPE) for part in PARTS]
     try:
         return [process.wait() for process in processes]
     finally:
@@ -132,6 +134,16 @@ def _compiling() -> list[int]:
 def end_at_once_by_ctrl_c() -> None:
     """In a process that compiles: what it has written is whole."""
     signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
+def end_with_its_parent() -> None:
+    """In a process that compiles a part: a killed run leaves nobody behind who compiles for it."""
+
+    def watch() -> None:
+        sys.stdin.buffer.read()
+        os._exit(1)
+
+    threading.Thread(target=watch, daemon=True).start()
 
 
 @cache

@@ -2,7 +2,7 @@
 
 `python -m fenics_gears.simulation.warm_up` compiles all of them that are not compiled yet into numba's files on disk
 (`compiled_ahead`). The launcher calls it after the set-up and after each change of the sources. With the name of a part
-it compiles that part in this process.
+it compiles that part in this process, until its standard input ends.
 """
 
 import gc
@@ -42,7 +42,7 @@ from fenics_gears.results.mesh_curves import stiffness_curves
 from fenics_gears.results.numbers import largest_of_cubics
 from fenics_gears.system.progress import LineProgress, Progress, SilentProgress
 
-from .compiled_ahead import MARCH, compile_loops, end_at_once_by_ctrl_c
+from .compiled_ahead import MARCH, compile_loops, end_at_once_by_ctrl_c, end_with_its_parent
 
 
 def compile_kernels(tangential: bool, rigid: bool = False, progress: Progress | None = None) -> float:
@@ -151,6 +151,7 @@ def _compile_part(name: str) -> None:
 if __name__ == "__main__":
     end_at_once_by_ctrl_c()
     if sys.argv[1:]:
+        end_with_its_parent()
         _compile_part(*sys.argv[1:])
     else:
         lines = LineProgress()

@@ -174,7 +174,7 @@ def entries(
 
 
 def _shown(value: Any) -> str:
-    return label(value) if isinstance(value, Mapping) else as_written(value)
+    return f"{{ {label(value)} }}" if isinstance(value, Mapping) else as_written(value)
 
 
 def _axes(swept: list[tuple[fields.Path, tuple[Any, ...], bool]]) -> tuple[Axis, ...]:

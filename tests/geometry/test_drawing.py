@@ -98,7 +98,9 @@ def test_diametral_pitch_counts_teeth_per_inch():
     gears = {"module": None, "diametral_pitch": "10 1/in"}
     scene = scene_of(gears, {"teeth": 17})
     assert 2.0 * gear_pair(scene.gears).pinion.reference_radius == pytest.approx(1.7 * 25.4, rel=1e-14)
-    with pytest.raises(SceneError, match="too large an error of manufacture for a module of 2.54 mm"):
+    with pytest.raises(
+        SceneError, match="too large an error of manufacture or modification for a module of 2.54 mm[.]"
+    ):
         scene_of(gears, {"teeth": 17}, eccentricity={"pinion": {"distance": "12 mil"}})
     loaded = replace(scene, load=replace(scene.load, wheel_torque=60e3))
     assert scene_from_text(loaded.text).gears == scene.gears
@@ -286,6 +288,15 @@ def test_a_centre_distance_that_leaves_no_teeth_is_named():
     """ISO 21771: 3 (19 + 31)/(2 cos 44 deg) = 104.262 mm; no tip diameter would help."""
     with pytest.raises(GeometryError, match=r"pair: centre distance 76 mm, .* have 104.262 mm: .* gears.centre_dist"):
         scene_of({"helix_angle": "44 deg", "pinion_hand": "right", "centre_distance": "76 mm"})
+
+
+def test_profile_shifts_that_fit_at_no_centre_distance_are_named():
+    """inv(alpha_wt) = 0 is at a sum of -(z1 + z2) inv(20 deg)/(2 tan 20 deg) = -1.024 for 50 teeth."""
+    below = {"profile_shift": -0.6}
+    with pytest.raises(
+        GeometryError, match=r"shifts of -0.6 and -0.6 .* sum must be above -1.024 .* gears.pinion.prof"
+    ):
+        scene_of(None, below, below)
 
 
 def rows_of(scene):

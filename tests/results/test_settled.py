@@ -119,5 +119,5 @@ def test_the_start_has_died_down(paper_scene):
     assert settled(model, model.steps) == type(settled(model, model.steps))(expected)
     short = model_of(coarse_scene(paper_scene, cycles=2))
     found = settled(short, short.steps)
-    assert found.first == a_cycle and "has not died down" in found.warning
+    assert found.first == a_cycle and "has not died down" in found.warning and "% of its slowest" in found.warning
     assert f"motion.mesh_cycles = {ceil(calm * short.time_step * 200.0 + 1)}" in found.warning

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from tests.coarse import COARSE
 
-from fenics_gears import simulate
+from fenics_gears import model_of, simulate
 from fenics_gears.dynamics.torque_ripple import Harmonic, TorqueRipple
 from fenics_gears.effects.corner_contact import EdgeRadii
 from fenics_gears.effects.tip_relief import TipRelief
@@ -111,6 +111,8 @@ def test_contact_that_is_not_resolved_is_named(coarse):
     """Coarser than the Hertz half-width, or contact nodes closer than the elements."""
     few = simulate(replace(coarse, accuracy=replace(COARSE, contact_nodes=4)))
     assert "spacing of accuracy.contact_nodes is 1 mm, more than the Hertz half-width" in few.attrs["warnings"]
+    light = replace(coarse, load=replace(coarse.load, wheel_torque=0.1), accuracy=replace(COARSE, contact_nodes=4))
+    assert "contact_nodes and contact_length of the default" in "".join(model_of(light).warnings)
     many = simulate(replace(coarse, accuracy=replace(COARSE, contact_nodes=51)))
     assert "the pressure oscillates" in many.attrs["warnings"]
 

@@ -95,3 +95,16 @@ def test_every_folder_with_loops_is_looked_after():
     loops = {folder.relative_to(compiled_ahead.PACKAGE) for folder in compiled_ahead._places()}
     # The module that compiles ahead names numba's functions without having loops.
     assert names - {Path("simulation")} == loops
+
+
+def test_a_process_that_compiles_ends_with_the_one_that_started_it():
+    """A killed run closes its end of the pipe, as the system does; before, the compilers of each went on beside those
+    of the next."""
+    program = "import time; from fenics_gears.simulation.compiled_ahead import end_with_its_parent as ends; ends()\n"
+    call = [sys.executable, "-P", "-c", f"{program}print(flush=True); time.sleep(60)"]
+    environment = os.environ | {"PYTHONPATH": str(ROOT)}
+    with subprocess.Popen(call, env=environment, stdin=subprocess.PIPE, stdout=subprocess.PIPE) as compiler:
+        compiler.stdout.readline()
+        assert compiler.poll() is None
+        compiler.stdin.close()
+        assert compiler.wait(timeout=30) == 1

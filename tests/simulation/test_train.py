@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from tests.trains import helical_row, row, two_stages
 
-from fenics_gears import simulate, simulate_train
+from fenics_gears import SceneError, simulate, simulate_train
 from fenics_gears.scene.train_mesh import layout_of
 
 FRICTION = "\n[friction]\ncoefficient = {}\n"
@@ -79,3 +79,17 @@ def test_pairs_of_both_meshes_of_an_idler_touch_along_their_paths():
         late = loaded.max() - mesh.pair.contact_ratio
         assert 0.0 < early < 0.15
         assert late == pytest.approx(early, abs=0.05)
+
+
+@pytest.mark.parametrize(
+    ("run", "given", "words"),
+    [
+        (simulate, two_stages(), "load_train and run by simulate_train"),
+        (simulate, "pair.toml", "from load_scene, not an object of type str"),
+        (simulate_train, two_stages().meshes[0].scene, "load_scene and run by simulate"),
+    ],
+)
+def test_what_is_no_scene_of_theirs_is_refused_in_words(run, given, words):
+    """The call that reads what was meant is named."""
+    with pytest.raises(SceneError, match=words):
+        run(given)

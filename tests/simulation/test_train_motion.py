@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from tests.trains import COARSE, row, row_section, stage, two_stages
 
-from fenics_gears import scene_from_text, simulate, simulate_train, train_from_text
+from fenics_gears import ComputationError, scene_from_text, simulate, simulate_train, train_from_text
 
 INERTIA = '\n[inertia]\ndensity = "7.85 g/cm^3"\n[inertia.load]\nmoment_of_inertia = "0.05 kg m^2"\n'
 BEARINGS = '\n[bearings]\nstiffness = "2e5 N/mm"\n'
@@ -113,3 +113,28 @@ def test_friction_locks_the_mesh_that_has_it(strong):
     said = [each for each in found.attrs["warnings"].splitlines() if "self-locking" in each]
     assert [each.partition(":")[0] for each in said] == [strong]
     assert "friction_loss" not in found.attrs
+
+
+def test_meshes_of_a_train_say_what_their_pair_says():
+    """Each assumption that a result breaks: rotations that are not small, teeth that went through each other, contact
+    at the end of its window. A train of one mesh is its pair; before, it said nothing."""
+    accuracy = f'{COARSE}\ncontact_length = "0.3 mm"\nelastic_teeth = 2\n'
+    gears = stage("one", 3.0, (20, 40))
+    soft = f'[bearings]\nstiffness = "50 N/mm"\n[accuracy]\n{accuracy}'
+    expected = simulate(
+        scene_from_text(f'{gears.replace("stages.one", "gears")}[load]\nwheel_torque = "400 N m"\n{soft}')
+    )
+    found = simulate_train(train_from_text(f'{gears}[load]\noutput_torque = "400 N m"\n{soft}'))
+    said = found.attrs["warnings"].splitlines()
+    words = ("no meaning", "end of the contact window", "the wheel turns by")
+    for each in words:
+        (of_pair,) = [line for line in expected.attrs["warnings"].splitlines() if each in line]
+        assert f"one: {of_pair}" in said
+    assert "no meaning" in said[0]
+
+
+def test_a_ramp_that_pulls_the_teeth_apart_is_named():
+    """The masses of 0.05 kg m^2 are slowed by more than 400 N m slow them: a pair names its ramp too."""
+    ramp = '[speed_ramp]\nend_speed = "1 rpm"\n'
+    with pytest.raises(ComputationError, match=r"first: .*\[speed_ramp\] accelerates .* a longer ramp"):
+        simulate_train(two_stages(more=f"{INERTIA}{motion(9000, 2)}{ramp}"))
