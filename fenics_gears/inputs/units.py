@@ -258,15 +258,13 @@ def _unit(written: str, kinds: tuple[str, ...] = ()) -> tuple[float, str]:
 @functools.cache
 def _part_of(kinds: tuple[str, ...]) -> list[str]:
     """Names of the units that bring a product or quotient nearer to one of these kinds; all where these have none."""
-    powers = [_product(unit)[1] for unit, kind in _KINDS.items() if kind in kinds]
-    if not powers:
-        return list(_UNITS)
-    return [name for name in _UNITS if any(_brings_nearer(_product(name)[1], wanted) for wanted in powers)]
+    wanted = [_product(unit)[1] for unit, kind in _KINDS.items() if kind in kinds]
+    return [name for name in _UNITS if not wanted or any(_is_part(_product(name)[1], each) for each in wanted)]
 
 
-def _brings_nearer(powers: Counter, wanted: Counter) -> bool:
+def _is_part(powers: Counter, wanted: Counter) -> bool:
     """Whether fewer powers are left of a kind when it is divided, or multiplied, by a unit of such powers."""
-    left = [sum(abs(wanted[name] + sign * powers[name]) for name in {*wanted, *powers}) for sign in (-1, 1)]
+    left = [sum(abs(wanted[name] + sign * powers[name]) for name in _BASE.values()) for sign in (-1, 1)]
     return min(left) < sum(map(abs, wanted.values()))
 
 
