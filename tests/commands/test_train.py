@@ -129,3 +129,11 @@ def test_commands_take_stages_that_move_together(scene, tmp_path, capsys):
     assert not (out / "first").exists()
     assert main(["picture", str(out), "-q"]) == 0
     assert all((out / name / "stress.png").is_file() for name in ("first", "second"))
+
+
+def test_a_train_without_meaning_has_the_exit_code_of_a_pair(scene, capsys):
+    """On springs of 50 N/mm the teeth go through each other, which exit code 4 says (docs/promises.md)."""
+    scene.write_text(scene.read_text() + '[bearings]\nstiffness = "50 N/mm"\n')
+    out = scene.parent / "out"
+    assert main(["run", str(scene), "-o", str(out), "-q", "--no-pictures"]) == 4
+    assert capsys.readouterr().err.startswith(f"{out / 'run.nc'}: first: the result has no meaning")

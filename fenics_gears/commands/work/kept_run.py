@@ -13,7 +13,6 @@ from typing import Any
 from fenics_gears import results
 from fenics_gears.errors import FAILED, ComputationError
 from fenics_gears.model.model import Model
-from fenics_gears.results import validity
 from fenics_gears.results.journal import JournalPlace
 from fenics_gears.results.summary import Row, summary_rows, what_is_there
 from fenics_gears.runs.simulate import simulate
@@ -23,8 +22,8 @@ from fenics_gears.system.job import Job
 from fenics_gears.system.output import write_whole
 from fenics_gears.system.progress import Interruption
 
-from ..shared import INTERRUPTED, JOURNAL, NO_MEANING, RUN_FILE, WITHOUT_SOMETHING
-from .shared import after_result, plots, shown_progress
+from ..shared import INTERRUPTED, JOURNAL, RUN_FILE, WITHOUT_SOMETHING
+from .shared import after_result, plots, shown_progress, worth
 
 
 def run_and_keep(model: Model, directory: Path, options: argparse.Namespace, job: Job | None) -> int:
@@ -67,16 +66,7 @@ def run_and_keep(model: Model, directory: Path, options: argparse.Namespace, job
         print(last_words, file=sys.stderr)
         return INTERRUPTED
     failed = FAILED in kept.dataset.attrs or pictures is None or rows is None
-    return _worth(kept) or (WITHOUT_SOMETHING if failed else 0)
-
-
-def _worth(kept: _Kept) -> int:
-    """NO_MEANING, with the reason in words, for a result that has none."""
-    said = kept.dataset.attrs.get("warnings", "").splitlines()
-    worthless = [warning for warning in said if validity.NO_MEANING in warning]
-    if worthless:
-        print(f"{kept.file}: {worthless[0]}", file=sys.stderr)
-    return NO_MEANING if worthless else 0
+    return worth(kept.dataset, kept.file) or (WITHOUT_SOMETHING if failed else 0)
 
 
 class _Kept:

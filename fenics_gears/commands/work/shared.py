@@ -11,6 +11,7 @@ from importlib import import_module
 from math import inf
 from pathlib import Path
 from types import ModuleType
+from typing import Any
 
 from fenics_gears.errors import SceneError, Value, attempted
 from fenics_gears.inputs import units
@@ -18,7 +19,7 @@ from fenics_gears.system.console import on_terminal, printable
 from fenics_gears.system.output import check_writable
 from fenics_gears.system.progress import BarProgress, LineProgress, Progress, SilentProgress
 
-from ..shared import INTERRUPTED
+from ..shared import INTERRUPTED, NO_MEANING
 
 
 def under_mpirun(options: argparse.Namespace, arguments: list[str]) -> int:
@@ -113,3 +114,13 @@ def print_files(files: Iterable[Path], quiet: bool) -> None:
     if not quiet:
         for file in files:
             print(printable(str(file)))
+
+
+def worth(result: Any, file: Path) -> int:
+    """NO_MEANING, with the reason in words, for a result that has none."""
+    from fenics_gears.results import validity
+
+    worthless = [said for said in result.attrs.get("warnings", "").splitlines() if validity.NO_MEANING in said]
+    if worthless:
+        print(f"{file}: {worthless[0]}", file=sys.stderr)
+    return NO_MEANING if worthless else 0

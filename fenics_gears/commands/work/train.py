@@ -31,7 +31,7 @@ from fenics_gears.system.output import check_writable, write_whole
 from fenics_gears.system.progress import Interruption
 
 from ..shared import RUN_FILE, WITHOUT_SOMETHING
-from .shared import after_result, plots, shown_progress
+from .shared import after_result, plots, shown_progress, worth
 
 SCENE_FILE = "scene.toml"
 Row = tuple[str, str, str]
@@ -61,7 +61,7 @@ def run_train(scene: TrainScene, options: argparse.Namespace) -> int:
         print_rows("Files", [("", str(each), "") for each in (file, *(pictures or []))])
         if stages:
             print_rows("Stages as pairs, for all other commands", [("", str(own), "") for own, _ in stages])
-    return WITHOUT_SOMETHING if pictures is None else 0
+    return worth(found, file) or (WITHOUT_SOMETHING if pictures is None else 0)
 
 
 def _stage(directory: Path, mesh: MeshOfScene, found) -> tuple[Path, Any]:
