@@ -22,7 +22,7 @@ from .planetary import result_of_set
 from .recorder import Recorder
 from .train import OF_ENERGY, MeshResult
 from .train_shafts import ShaftsOfTrain
-from .validity import locking, warnings_of_mesh
+from .validity import NO_MEANING, locking, warnings_of_mesh
 
 if TYPE_CHECKING:
     from .train_shafts import ResultOfShafts
@@ -65,7 +65,7 @@ class RowResult:
             curves = {name: (dims, values, labels) for name, dims, values, labels in variables_of(recorder, 0)}
             places = _along_the_row(coordinates_of(recorder, recorder.arrays))
             numbers = self._numbers(recorder)
-            said = [*warnings_of_mesh(recorder), *self._said(march)]
+            said = [*warnings_of_mesh(recorder), *self._said(recorder, march)]
             if recorder.model.friction_coefficient * recorder.cycle.longest_lever >= 1.0:
                 said += locking(self._slowest.cycle, march)
             for along in recorder.along_face:
@@ -99,11 +99,22 @@ class RowResult:
     def _slowest(self) -> Recorder:
         return max(self._recorders, key=lambda recorder: recorder.cycle.steps)
 
-    @staticmethod
-    def _said(march: March) -> list[str]:
+    def _said(self, recorder: Recorder, march: March) -> list[str]:
+        """Loss of contact in all meshes, which has no meaning where gears turn through a mesh's backlash meanwhile."""
         if not march.separations:
             return []
-        return [f"no flanks touch in any mesh in {len(march.separations)} of {march.steps} steps"]
+        lost = f"no flanks touch in any mesh in {len(march.separations)} of {march.steps} steps"
+        first = march.steps - self._row.recorded if self._row.recorded else 0
+        # The smallest opening of all meshes: each is open by as much.
+        widest = max((opening for step, opening in march.separations if step >= first), default=0.0)
+        backlash = recorder.cycle.pair.backlash
+        if widest <= backlash:
+            return [lost]
+        return [
+            f"{NO_MEANING}: {lost}, and they come {widest * 1e3:.4g} um apart. That is more than the backlash of"
+            f" {max(backlash * 1e3, 0.0):.4g} um: the coast flanks would touch, which meshes that are computed together do not"
+            " have"
+        ]
 
     def _numbers(self, recorder: Recorder) -> dict[str, Any]:
         """Numbers of a mesh, of the last whole mesh cycles among the recorded steps."""
