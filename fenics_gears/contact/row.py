@@ -157,7 +157,7 @@ class RowCycle(Cycle):
         """Let operators take so many bytes, those of single meshes among them; those of all meshes are held
         for a block of steps alone where each position of them is passed `once`. Meshes pass theirs more often."""
         # Operators grow with the square of their nodes, and those of all meshes have count times as many; how these
-        # feel each other takes as much as each by itself. Meshes that are solved one by one have factors alone together.
+        # feel each other takes as much as each by itself. Meshes that are solved one by one have only factors together.
         alone = not self.tangential and len(self.face.widths) > 1
         count = 1 if alone else len(self.meshes)
         self.kept = Kept(memory * count / (count + 2))
