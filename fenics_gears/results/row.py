@@ -112,7 +112,7 @@ class RowResult:
             return [lost]
         return [
             f"{NO_MEANING}: {lost}, and they come {widest * 1e3:.4g} um apart. That is more than the backlash of"
-            f" {max(backlash * 1e3, 0.0):.4g} um: the coast flanks would touch, which meshes that are computed"
+            f" {round(max(backlash * 1e3, 0.0), 6):.4g} um: the coast flanks would touch, which meshes that are computed"
             " together do not have"
         ]
 

@@ -118,6 +118,6 @@ def test_a_ramp_takes_the_power_of_what_it_accelerates():
 def test_a_set_that_is_braked_through_its_backlash_has_no_meaning():
     """Masses whose own turning needs more than the load: all flanks part, and gears without coast flanks turn on
     through a backlash of zero, as an opening of any size then says."""
-    braked = in_time(3000, 4, sections=DAMPED.format(0.05) + '[speed_ramp]\nend_speed = "1 rpm"\nhold_cycles = 2\n')
+    braked = in_time(9000, 3, sections=DAMPED.format(0.05) + '[speed_ramp]\nend_speed = "1 rpm"\nhold_cycles = 2\n')
     said = simulate_train(braked).attrs["warnings"].splitlines()
     assert "no meaning: no flanks touch in any mesh" in said[0] and "more than the backlash" in said[0]
