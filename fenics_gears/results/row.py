@@ -107,12 +107,13 @@ class RowResult:
         first = march.steps - self._row.recorded if self._row.recorded else 0
         # The smallest opening of all meshes: each is open by as much.
         widest = max((opening for step, opening in march.separations if step >= first), default=0.0)
-        backlash = recorder.cycle.pair.backlash
+        # Of gears without backlash a number of round-off.
+        backlash = max(round(recorder.cycle.pair.backlash, 9), 0.0)
         if widest <= backlash:
             return [lost]
         return [
             f"{NO_MEANING}: {lost}, and they come {widest * 1e3:.4g} um apart. That is more than the backlash of"
-            f" {round(max(backlash * 1e3, 0.0), 6):.4g} um: the coast flanks would touch, which meshes that are computed"
+            f" {backlash * 1e3:.4g} um: the coast flanks would touch, which meshes that are computed"
             " together do not have"
         ]
 
