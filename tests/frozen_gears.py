@@ -35,12 +35,15 @@ class Frozen:
                 previous_jacobian=operator.jacobian[n:].copy(),
             )
         self._position = Position(operator, np.arange(operator.nodes), position.index, position.nodes)
-        self.steps, self.solve, self.pair, self.traits = (
-            cycle.steps,
-            cycle.solve,
-            cycle.pair,
-            replace(cycle.traits, divisible=False),
-        )
+        self.steps = self.steps_until_alike = cycle.steps
+        self.solve = cycle.solve
+        self.pair = cycle.pair
+        self.longest_lever = cycle.longest_lever
+        self.traits = replace(cycle.traits, divisible=False)
+
+    def alike_nodes(self, step):
+        """No other mesh is like this one."""
+        return []
 
     def shared(self, kind):
         return kind()

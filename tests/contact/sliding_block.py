@@ -24,7 +24,7 @@ class SlidingBlock:
 
     def __init__(self, problem: StepEquations):
         self.problem, self.steps, self.solved = problem, 100, []
-        self.pair = SimpleNamespace(wheel=SimpleNamespace(tip_roll_angle=0.0))
+        self.longest_lever = 0.0
 
     def build(self, steps):
         """Positions are made one by one."""

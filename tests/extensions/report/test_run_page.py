@@ -187,7 +187,7 @@ def test_effects_are_measured_when_asked_for(run, tmp_path, monkeypatch):
     asked = []
     monkeypatch.setattr(measured, "measure", lambda scene, progress: asked.append(scene.text) or "measured")
 
-    def write(found, directory, name, write_csv, draw):
+    def write(own, found, directory, name):
         assert (found, directory, name) == ("measured", tmp_path, "effects")
         write_measured(directory, measured_lines(dataset, error))
         return [directory / "effects.csv"]
