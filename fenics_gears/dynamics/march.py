@@ -16,7 +16,6 @@ from threadpoolctl import ThreadpoolController
 from fenics_gears.contact.addresses import march_with_inertia
 from fenics_gears.contact.errors import ContactNotConverged
 from fenics_gears.contact.mesh_cycle import Cycle
-from fenics_gears.contact.uniqueness import uncertified
 from fenics_gears.errors import MemoryEnded
 from fenics_gears.system.memory import SHARE_OF_A_BLOCK
 
@@ -291,5 +290,8 @@ class Marcher:
         return [int(record.step) for record in solved.records if record.step > 0 and is_locked(record)]
 
     def _judge(self, march: March, steps: Steps) -> None:
+        # Imported here: runs without friction have none of it.
+        from fenics_gears.contact.uniqueness import uncertified
+
         march.judged += len(steps)
         march.uncertified += uncertified(march.stiffness, march.friction, steps.solved)

@@ -29,7 +29,7 @@ PROFILE_SHAPES = 3
 DEGREE = 6
 OF_NODES = 1 / 3
 OF_NODES_OF_MANY = 1 / 5
-OF_NODES_WITH_WEB = 3 / 4
+OF_NODES_WITH_WEB = 1.0
 # Motions are told apart by this part of their length. All dofs are kept where fewer than so many of them would go.
 TOLD_APART = 1e-6
 WORTHWHILE = 0.6
