@@ -29,7 +29,6 @@ from fenics_gears.contact.operator import ContactOperator, Position
 from fenics_gears.contact.rigid_step import solve_rigid
 from fenics_gears.contact.step_solver import NEWTON, solve_step
 from fenics_gears.contact.tooth_pair import DRIVE, PairNodes, Place, nodal_gap
-from fenics_gears.contact.uniqueness import between_closed
 from fenics_gears.contact.window import ContactGrid, node_offsets
 from fenics_gears.dynamics.compiled_march import Course, Motion, solve_steps
 from fenics_gears.dynamics.drivetrain import Drivetrain
@@ -117,6 +116,9 @@ def _evaluate(steps: Steps, tangential: bool) -> None:
     for evaluated in (contact_work, stiffness_curves, energy_of_teeth, smallest_openings, drive_flanks_touch):
         evaluated(steps)
     if tangential:
+        # Imported here: runs without friction have none of it.
+        from fenics_gears.contact.uniqueness import between_closed
+
         between_closed(np.zeros((1, 1)), np.eye(2), np.array([0]), np.ones(1))
 
 
