@@ -137,7 +137,7 @@ class GearRecovery:
         link = self._link
         if self.sector.sweep is not None:
             loads = np.hstack([each / np.linalg.norm(each) for each in (responding, loaded)])
-            motions = cut_motions(link, loads, self.sector.place(self.sector.lower), self.sector.sweep.web)
+            motions = cut_motions(link, loads, self.gear.tooth_count)
             link = over_motions(link, motions)
             responding = loads_over_motions(responding, motions)
             loaded = loads_over_motions(loaded, motions)

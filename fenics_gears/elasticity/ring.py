@@ -21,6 +21,8 @@ from .mumps import symmetric
 
 # Response (c, c) of the cut m pitches ahead to forces on a cut, as a function of m.
 CutResponse = Callable[[int], np.ndarray]
+# Of a sector, what `between_cuts` gives.
+Parts = tuple[np.ndarray, np.ndarray, np.ndarray]
 
 
 def condensed_sector(
@@ -68,7 +70,7 @@ def joined_blocks(held: np.ndarray, to_cuts: np.ndarray, link: np.ndarray, teeth
     return blocks
 
 
-def between_cuts(sector: CondensedBody, teeth: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def between_cuts(sector: CondensedBody, teeth: int) -> Parts:
     """Of a sector the flank's compliance with the cuts held, (minus) its motion per motion of the cuts, and the
     stiffness between these, the flank free; frames as in `sector_cuts`."""
     check_congruent(sector.points["lower"], sector.points["upper"], teeth)
@@ -88,7 +90,7 @@ def turn_last(stiffness: np.ndarray, last: int, turn: np.ndarray) -> None:
     stiffness[:, -last:] = (columns @ turn).reshape(len(stiffness), last)
 
 
-def flank_free(stiffness: np.ndarray, flank: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def flank_free(stiffness: np.ndarray, flank: int) -> Parts:
     """The same of a stiffness whose `flank` dofs come first and those of the cuts behind them."""
     factor, onto_cut, cut = _eliminated(stiffness, flank, "a flank")
     response = dtrsm(1.0, factor, onto_cut, overwrite_b=1)

@@ -57,7 +57,7 @@ def _computed(
     mesh = swept_section(gear, face.sizes)
     meshed = perf_counter()
     sector = condensed_swept_sector(mesh, face.sweep, poissons_ratio, gear.teeth, both)
-    parts = parts_of_ring(sector)
+    parts = parts_of_ring(sector, gear.teeth)
     spent = sector.timings
     del sector
     if both:

@@ -13,14 +13,11 @@ from ..condensation import by_radius, line_of
 from ..element_nodes import dofs_of
 from ..mesh_data import BodyMesh
 from ..mumps import schur_complement
-from ..ring import check_congruent, flank_free, turn_last
+from ..ring import Parts, check_congruent, flank_free, turn_last
 from .coarse_cuts import cut_nodes, narrow_sweep, on_cut_nodes, root_pitch
-from .cut_motions import cut_motions, loads_on_flanks, over_motions
+from .cut_motions import between_few_motions
 from .layers import Sweep, SweptWeb, swept_nodes
 from .swept_stiffness import ELEMENT, SectionForms, swept_stiffness
-
-# Of a sector, what `ring.between_cuts` gives.
-Parts = tuple[np.ndarray, np.ndarray, np.ndarray]
 
 
 @dataclass(frozen=True)
@@ -111,12 +108,7 @@ def _dofs_by_height(flanks: int, profile: int, lower: np.ndarray, sweep: Sweep) 
     return [dofs_of(np.flatnonzero(of_nodes == height), 3) for height in range(len(heights))]
 
 
-def parts_of_ring(sector: SweptSector) -> Parts:
+def parts_of_ring(sector: SweptSector, teeth: int) -> Parts:
     """Of a sector between cuts that move in few ways, what `ring.between_cuts` gives of all their dofs."""
-    stiffness = sector.stiffness
-    flanks = len(stiffness) - 2 * sector.lower.size
-    on_flanks = loads_on_flanks(flanks, sector.profile)
-    loads = np.zeros((len(stiffness), on_flanks.shape[1]))
-    loads[:flanks] = on_flanks
-    motions = cut_motions(stiffness, loads, sector.lower, sector.web)
-    return flank_free(over_motions(stiffness, motions), flanks)
+    flanks = len(sector.stiffness) - 2 * sector.lower.size
+    return between_few_motions(flank_free(sector.stiffness, flanks), sector.profile, teeth)
