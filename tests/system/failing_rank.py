@@ -18,7 +18,7 @@ STAGES = {
     "plane sections": "elasticity.gear_compliance:_computed",
     "section mesh": "elasticity.face.condensed:SectionForms",
     "condensing": "elasticity.face.condensed:schur_complement",
-    "ring": "elasticity.face.condensed:cut_motions",
+    "ring": "elasticity.face.condensed:between_few_motions",
     "remeshing": "elasticity.remeshed_gear:RemeshedGear.stiffness",
     "positions": "contact.mesh_cycle:Cycle.position",
     "march": "dynamics.march:Marcher.run",

@@ -27,9 +27,8 @@ SAMPLES, NECK = 60, 0.3
 BYTES_OF_AN_UNKNOWN = 12e3
 BYTES_OF_AN_ENTRY = 26.0
 CONDENSING = 90.0
-# Motions of a cut, in the mean of its dofs and a flank's; time of the ring's multiplications in that of MUMPS's.
-MOTIONS = 0.2
-IN_RING = 2.4
+# Motions of a cut, and loads that cause them, in the dofs of a flank.
+MOTIONS, LOADS = 0.3, 0.15
 
 
 class BodySize(NamedTuple):
@@ -139,15 +138,14 @@ def expected_condensing(gear: Gear, face: FaceDiscretisation, farthest: int, bot
     narrow = narrow_sweep(sweep, 2.0 * np.pi * gear.root_radius / gear.teeth)
     factorised = size.unknowns * len(narrow.heights) / len(sweep.heights)
     condensing = BYTES_OF_AN_UNKNOWN * factorised + BYTES_OF_AN_ENTRY * size.condensed**2
-    multiplications = CONDENSING * factorised**2 + IN_RING * _ring(size, gear.tooth_count, farthest)
+    multiplications = CONDENSING * factorised**2 + _ring(size, gear.tooth_count, farthest)
     return BodyCost(condensing, multiplications)
 
 
 def _ring(size: BodySize, teeth: int, farthest: int) -> float:
     """Multiplications by which sectors are joined (`cut_motions`, `ring.joined_blocks`)."""
-    motions = MOTIONS * (size.cut * size.flanks) ** 0.5
-    local = (size.flanks + size.cut) ** 3 / 3.0
-    projected = 2.0 * motions * size.cut * size.condensed
-    flank = size.flanks**3 / 3.0 + 2.0 * motions * size.flanks * (size.flanks + motions)
+    motions = MOTIONS * size.flanks
+    flanks = size.flanks**3 / 3.0 + 2.0 * size.flanks * size.cut * (size.flanks + size.cut)
+    moved = 6.0 * size.cut**3 + 30.0 * size.cut**2 * LOADS * size.flanks
     blocks = (farthest + 1) * 2.0 * motions * size.flanks * (size.flanks + 2.0 * motions)
-    return local + projected + flank + blocks + 2.0 * (teeth // 2 + 1) * motions**3
+    return flanks + moved + blocks + 2.0 * (teeth // 2 + 1) * motions**3

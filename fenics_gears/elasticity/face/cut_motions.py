@@ -9,15 +9,18 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.polynomial.legendre import legvander
-from scipy.linalg import cho_solve, eigh
+from scipy.linalg import cho_solve, eigh, solve_triangular
 
 from ..ring import Parts, cyclic, definite_factor
 
-# Motions below this part of all are left out; shapes of a load along a profile.
-LEAST_MOTION = 1e-6
+# All motions are kept of a cut of so few dofs.
+FEW = 300
+# Of motions under loads that each do as much work, those with less than this part (squared) of all are left out.
+LEAST_MOTION = 2e-3
+# Shapes of a load along a profile.
 PROFILE_SHAPES = 2
 # Of phases, from one to the next at most.
-GROWTH = 3.0
+GROWTH = 2.5
 
 
 def between_few_motions(parts: Parts, profile: int, teeth: int) -> Parts:
@@ -29,20 +32,29 @@ def between_few_motions(parts: Parts, profile: int, teeth: int) -> Parts:
 
 
 def cut_motions(link: np.ndarray, loads: np.ndarray, teeth: int) -> np.ndarray:
-    """Orthonormal motions (c, r) of a cut in a ring of sectors between their cuts (2 c, 2 c), N/mm, under loads (2 c,
-    k) on the cuts of each sector."""
+    """Motions (c, r) of a cut in a ring of sectors between their cuts (2 c, 2 c), N/mm, under loads (2 c, k) on the
+    cuts of each sector; orthonormal by the stiffness of a cut whose neighbours are held."""
     same, ahead = cyclic(link)
+    if len(same) <= FEW:
+        return np.eye(len(same))
     lower, upper = np.split(loads, 2)
     moved = []
-    for turn in _turns(teeth):
+    turns = _turns(teeth)
+    for turn in turns:
+        forces = lower + upper * turn
         # Transposed, the conjugate is in LAPACK's order.
         factor = definite_factor((same + ahead * turn + ahead.T * np.conj(turn)).T, "a harmonic")
-        motion = cho_solve((factor, False), lower + upper * turn, overwrite_b=True, check_finite=False)
+        motion = cho_solve((factor, False), forces, check_finite=False)
+        work = np.einsum("ij,ij->j", forces.conj(), motion).real
+        motion /= np.sqrt(np.maximum(work, np.finfo(float).tiny))
         moved += [motion.real, motion.imag] if np.iscomplexobj(motion) else [motion]
-    together = np.hstack(moved)
-    squares = together @ together.T
-    least = LEAST_MOTION**2 * np.trace(squares)
-    return eigh(squares, subset_by_value=(least, np.inf), overwrite_a=True, check_finite=False)[1]
+    # What this makes of a motion is as long as the root of its work.
+    root = np.triu(definite_factor(same.T, "a cut"))
+    whitened = root @ np.hstack(moved)
+    squares = whitened @ whitened.T
+    least = LEAST_MOTION**2 * len(turns)
+    directions = eigh(squares, subset_by_value=(least, np.inf), overwrite_a=True, check_finite=False)[1]
+    return solve_triangular(root, directions, overwrite_b=True, check_finite=False)
 
 
 def _turns(teeth: int) -> list[complex]:

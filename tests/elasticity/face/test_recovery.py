@@ -14,6 +14,7 @@ from tests.elasticity.face.swept import SIZES, TWIST, TWISTED, in_frame, in_plac
 from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.elasticity.condensation import by_radius, condense, without
 from fenics_gears.elasticity.element_nodes import dofs_of
+from fenics_gears.elasticity.face import cut_motions
 from fenics_gears.elasticity.face.compliance import face_compliance
 from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
 from fenics_gears.elasticity.face.layers import Sweep, SweptWeb, swept_nodes
@@ -42,8 +43,9 @@ def test_flanks_move_as_their_compliance_says(recovery):
 
 @pytest.mark.nightly
 @pytest.mark.parametrize("low", [-3.0, -7.5])
-def test_flanks_beside_a_web_move_as_their_compliance_says(low):
-    """The same, of a web in the middle and of one at the left end."""
+def test_flanks_beside_a_web_move_as_their_compliance_says(low, monkeypatch):
+    """The same, of a web in the middle and of one at the left end, with all motions of the cuts."""
+    monkeypatch.setattr(cut_motions, "FEW", 10_000)
     web, width = SweptWeb(18.0, 25.0, low, low + 6.0), PINION_BODY.face_width
     gear = replace(PINION, web=Web(18.0, 25.0, 6.0 / width, offset=(low + 3.0) / width))
     body = replace(PINION_BODY, web=web)
