@@ -75,7 +75,9 @@ def test_ring_of_sectors_is_the_whole_gear(sector, measured):
     flanks = {f"flank {tooth}": flank_nodes(whole, f"flank {tooth}") for tooth in range(offsets + 1)}
     body = condense_swept(whole, TWISTED, 0.3, flanks, held=whole.edge_nodes("hub", ELEMENT.order))
     compliance, size, worst = np.linalg.inv(body.stiffness), len(body.dofs("flank 0")), 0.0
-    for offset, block in enumerate(joined_blocks(*parts_of_ring(sector, GEAR.teeth), GEAR.teeth, offsets)[:, :size, :size]):
+    for offset, block in enumerate(
+        joined_blocks(*parts_of_ring(sector, GEAR.teeth), GEAR.teeth, offsets)[:, :size, :size]
+    ):
         frame = np.kron(np.eye(size // 3), rotation(offset * GEAR.angular_pitch, 3))
         worst = max(worst, difference(block, frame.T @ compliance[offset * size : (offset + 1) * size, :size]))
     measured("ring of twisted sectors and whole gear: difference", worst, "1e-10", row=6)

@@ -43,7 +43,9 @@ def motion(rim, width, thickness, order, direction, offset=0.0, hub=0.5 * BORE, 
     mesh = ring_sector(rim)
     web = SweptWeb(hub, rim, offset - 0.5 * thickness, offset + 0.5 * thickness)
     sweep = Sweep(layers_with_web(layers_of_face(layers, width), web.low, web.high), 0.0, web)
-    blocks = joined_blocks(*parts_of_ring(condensed_swept_sector(mesh, sweep, POISSON, SECTORS), SECTORS), SECTORS, SECTORS // 2)
+    blocks = joined_blocks(
+        *parts_of_ring(condensed_swept_sector(mesh, sweep, POISSON, SECTORS), SECTORS), SECTORS, SECTORS // 2
+    )
     x, y = (place := by_radius(mesh.edge_nodes("flank", 2)).mean(axis=0)) / np.linalg.norm(place)
     around = np.array([[x, -y, 0.0], [y, x, 0.0], [0.0, 0.0, 1.0]])
     heights = sweep.heights
