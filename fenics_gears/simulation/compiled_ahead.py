@@ -140,7 +140,8 @@ def end_with_its_parent() -> None:
     """In a process that compiles a part: a killed run leaves nobody behind who compiles for it."""
 
     def watch() -> None:
-        sys.stdin.buffer.read()
+        # Not by `sys.stdin`: Python aborts where a thread still reads from it at the end.
+        os.read(0, 1)
         os._exit(1)
 
     threading.Thread(target=watch, daemon=True).start()

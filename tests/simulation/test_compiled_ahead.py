@@ -108,3 +108,13 @@ def test_a_process_that_compiles_ends_with_the_one_that_started_it():
         assert compiler.poll() is None
         compiler.stdin.close()
         assert compiler.wait(timeout=30) == 1
+
+
+def test_a_process_that_compiles_ends_without_an_error_while_its_parent_waits():
+    """Identity: what has compiled all ends with exit code 0. Before, Python aborted at its end (-6): a thread held
+    the standard input, and every first run said that compiling ahead had failed."""
+    program = "import time; from fenics_gears.simulation.compiled_ahead import end_with_its_parent as ends; ends()\n"
+    call = [sys.executable, "-P", "-c", f"{program}time.sleep(0.2)"]
+    environment = os.environ | {"PYTHONPATH": str(ROOT)}
+    with subprocess.Popen(call, env=environment, stdin=subprocess.PIPE) as compiler:
+        assert compiler.wait(timeout=30) == 0
