@@ -62,16 +62,24 @@ _OF_TYPE = {
 }
 
 
+# Of mistakes. In Python other units than N, mm, s may be taken, beyond the ranges that a file has.
+_NEVER_ALLOWED = ("is not a finite number", "is zero", "is negative")
+
+
 def refuse_wrong(scene: Scene) -> None:
     """Refuse a scene that was changed in Python to values that no scene file may have; raises SceneError, in the words
     of `gears check`."""
     mistakes = list(_of_another_type(scene, ""))
     if mistakes:
         raise SceneError("\n".join([*(f"{scene.name}: {said}" for said in mistakes), NOTHING_DONE]))
-    if scene.text.startswith(NO_FILE):
-        values_of_text(
-            as_toml(section_trees(scene)), scene.name, directory=Path(scene.folder), with_lines=False
-        )  # fmt: skip
+    if not scene.text.startswith(NO_FILE):
+        return
+    text = as_toml(section_trees(scene))
+    try:
+        values_of_text(text, scene.name, directory=Path(scene.folder), with_lines=False)
+    except SceneError as error:
+        if any(words in str(error) for words in _NEVER_ALLOWED):
+            raise
 
 
 def _of_another_type(data: Any, home: str) -> Iterator[str]:
