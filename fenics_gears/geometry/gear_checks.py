@@ -138,7 +138,7 @@ def _rack(gear: Gear, section: str) -> Mistakes:
         yield (
             f"no dedendum: root diameter {2.0 * gear.root_radius:.6g} mm, but {gear.teeth} teeth with profile shift"
             f" {gear.profile_shift * gear.rack_stretch:.4g} ({section}.profile_shift) need a root below {limit:.6g} mm",
-            (("lower", "root_diameter"),),
+            (("lower", "root_diameter"), ("lower", "profile_shift")),
         )
     if gear.largest_rack_tip_radius < 0.0:
         deepest = 0.25 * pi / tan(gear.normal_pressure_angle)

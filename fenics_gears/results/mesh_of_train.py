@@ -3,7 +3,8 @@ ratings of pairs take."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+import re
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +18,7 @@ from .attributes import RESULT_ATTRIBUTES
 from .carried_scene import scene_attributes
 from .layout import OF_PAIRS
 from .sets_in_train import MESH, OF_SETS
+from .validity import NAMES_BETWEEN
 
 OF_MESH = "_of_mesh"
 # Each mesh has its own steps, in place of the times of a pair.
@@ -121,7 +123,6 @@ def mesh_run(result: xr.Dataset, train: TrainScene, number: int) -> xr.Dataset:
     numbers = {each.name: each for each in RESULT_ATTRIBUTES}
     attributes = {name: values.item() for name, (dims, values, _) in own.items() if name in numbers and not dims}
     variables = dict(_trimmed(own, sizes, number, len(train.meshes)))
-    prefix = f"{mesh.name}: "
     warnings = str(result.attrs.get("warnings", "")).splitlines()
     attributes = {
         "shown_cycles": mesh.scene.motion.recorded_cycles,
@@ -129,7 +130,7 @@ def mesh_run(result: xr.Dataset, train: TrainScene, number: int) -> xr.Dataset:
         **{name: result.attrs[name] for name in SAID if name in result.attrs},
         "title": f"{train.title}, {mesh.name}",
         **scene_attributes(mesh.scene),
-        "warnings": "\n".join(each.removeprefix(prefix) for each in warnings if each.startswith(prefix)),
+        "warnings": "\n".join(_said_of(mesh.name, [each.name for each in train.meshes], warnings)),
     }
     return xr.Dataset(variables, attrs=attributes).set_coords(
         [name for name in COORDINATES_OF_PAIRS if name in variables]
@@ -138,6 +139,16 @@ def mesh_run(result: xr.Dataset, train: TrainScene, number: int) -> xr.Dataset:
 
 def _of_mesh(variable: xr.Variable, number: int) -> np.ndarray:
     return np.asarray(variable.isel({MESH: number}) if MESH in variable.dims else variable)
+
+
+def _said_of(name: str, every: Sequence[str], warnings: Iterable[str]) -> Iterator[str]:
+    """The warnings that begin with the name of a mesh, alone or among those of others."""
+    names = "|".join(map(re.escape, every))
+    heading = re.compile(f"((?:{names})(?:{NAMES_BETWEEN}(?:{names}))*): ")
+    for warning in warnings:
+        found = heading.match(warning)
+        if found and name in found[1].split(NAMES_BETWEEN):
+            yield warning[found.end() :]
 
 
 def _is_number(value: Any) -> bool:

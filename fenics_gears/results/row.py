@@ -65,7 +65,7 @@ class RowResult:
             curves = {name: (dims, values, labels) for name, dims, values, labels in variables_of(recorder, 0)}
             places = _along_the_row(coordinates_of(recorder, recorder.arrays))
             numbers = self._numbers(recorder)
-            said = [*warnings_of_mesh(recorder), *self._said(recorder, march)]
+            said = [*map(mesh.words, warnings_of_mesh(recorder, numbers)), *self._said(recorder, march)]
             if recorder.model.friction_coefficient * recorder.cycle.longest_lever >= 1.0:
                 said += locking(self._slowest.cycle, march)
             for along in recorder.along_face:

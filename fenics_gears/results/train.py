@@ -23,7 +23,7 @@ from .layout import OF_OUTPUTS, OVERALL
 from .mesh_of_train import SHARED, over_meshes
 from .path_shares import path_shares
 from .sets_in_train import MESH, side_by_side
-from .validity import worst_first
+from .validity import of_each_kind, worst_first
 
 if TYPE_CHECKING:
     from .train_shafts import ResultOfShafts
@@ -178,7 +178,11 @@ def _numbers_of_meshes(numbers: Sequence[Mapping[str, Any]]) -> dict[str, tuple]
 
 def _attributes(model: TrainModel, meshes: Sequence[MeshResult], overall: np.ndarray) -> dict[str, Any]:
     scene = model.scene
-    said = [f"{each.name}: {warning}" for each in meshes for warning in each.warnings]
+    said: list[str] = []
+    left_over = iter(meshes)
+    for row in model.rows:
+        together = [next(left_over) for _ in row.models]
+        said += of_each_kind((each.name, warning) for each in together for warning in each.warnings)
     numbers = [_numbers_of(link, meshes) for link in scene.links] if scene.joined else [each.numbers for each in meshes]
     left = 1.0
     for each in numbers:

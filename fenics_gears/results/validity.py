@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-from typing import TYPE_CHECKING
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -40,6 +41,31 @@ def worst_first(warnings: Iterable[str]) -> list[str]:
     return sorted(warnings, key=lambda said: (NO_MEANING not in said, FEWER_THAN_THE_PERIOD not in said))
 
 
+# Between the names of meshes that have the same warning.
+NAMES_BETWEEN = "; "
+_NUMBER = re.compile(r"\d+(?:\.\d+)?(?:e[-+]?\d+)?")
+
+
+def of_each_kind(named: Iterable[tuple[str, str]]) -> list[str]:
+    """One sentence of those that differ in their numbers alone, the one of the largest first number, behind the names
+    of the meshes that have it. `named`: name of a mesh, and its warning.
+
+    >>> of_each_kind([("sun-1", "in 3 of 9 steps"), ("sun-2", "in 4 of 9 steps"), ("1-ring", "too thin")])
+    ['sun-1; sun-2: in 4 of 9 steps (that is sun-2, the most)', '1-ring: too thin']
+    """
+    kinds: dict[str, list[tuple[str, str]]] = {}
+    for name, said in named:
+        kinds.setdefault(_NUMBER.sub("0", said), []).append((name, said))
+    return [_one_of(kind) for kind in kinds.values()]
+
+
+def _one_of(kind: Sequence[tuple[str, str]]) -> str:
+    name, said = max(kind, key=lambda each: float((_NUMBER.findall(each[1]) or ["0"])[0]))
+    alike = len({words for _, words in kind}) == 1
+    names = NAMES_BETWEEN.join(dict.fromkeys(each for each, _ in kind))
+    return f"{names}: {said}" + ("" if alike else f" (that is {name}, the most)")
+
+
 def warnings_of_energy(
     scene: Scene, result: RunResult, steps_per_mesh_cycle: int, steps: slice = slice(None)
 ) -> list[str]:
@@ -66,10 +92,7 @@ def warnings_of(recorder: Recorder, march: March, result: RunResult) -> list[str
     cycle = recorder.cycle
     drivetrain = recorder.model.drivetrain
     clock = recorder.model.clock
-    watched = recorder.watched
-    of_mesh = warnings_of_mesh(recorder)
-    if cycle.traits.has_pressure and recorder.steps:
-        of_mesh += warnings_of_pressure(recorder.model.scene, watched, result.attrs)
+    of_mesh = warnings_of_mesh(recorder, result.attrs)
     for along in recorder.along_face:
         of_mesh += along.warnings(result.dataset)
     return [
@@ -78,13 +101,16 @@ def warnings_of(recorder: Recorder, march: March, result: RunResult) -> list[str
     ]  # fmt: skip
 
 
-def warnings_of_mesh(recorder: Recorder) -> list[str]:
-    """What of it one mesh tells, of a pair or among those of a train."""
+def warnings_of_mesh(recorder: Recorder, numbers: Mapping[str, Any]) -> list[str]:
+    """What of it one mesh tells, of a pair or among those of a train, with its `numbers` (attributes)."""
     cycle = recorder.cycle
     curves = recorder.arrays
     watched = recorder.watched
     of_flanks = [*_window(cycle, watched), *_rank(watched)] if cycle.traits.nodes_on_flanks and recorder.steps else []
-    return [*_passed_through(cycle, curves), *of_flanks, *_rotation(curves)]
+    said = [*_passed_through(cycle, curves), *of_flanks, *_rotation(curves)]
+    if cycle.traits.has_pressure and recorder.steps:
+        said += warnings_of_pressure(recorder.model.scene, watched, numbers)
+    return said
 
 
 def _window(cycle: Cycle, watched: Watched) -> list[str]:

@@ -14,6 +14,7 @@ from fenics_gears.errors import MemoryEnded, SceneError
 from fenics_gears.model.model import Model
 from fenics_gears.results.dataset import RunResult
 from fenics_gears.scene.data import Scene
+from fenics_gears.scene.write import refuse_wrong
 from fenics_gears.simulation.compiled_ahead import compile_loops
 from fenics_gears.simulation.routes import Preparation
 from fenics_gears.simulation.simulate import solved, with_lead_correction
@@ -63,7 +64,8 @@ def simulate(
     keep: is given the result as soon as the march ends. What follows, dynamic factors and proposed lead modifications,
         may fail: a warning then says so, and the attribute `failed_afterwards` names it.
 
-    Raises GeometryError before any computation where the gears are impossible, and TargetNotReached where no settings
+    Raises SceneError before any computation where a scene was changed to values that no scene file may have,
+    GeometryError where the gears are impossible, and TargetNotReached where no settings
     keep the target. Raises ComputationError where the run does not fit into the memory that it may take, or a stage
     fails: the steps before are in its attribute `partial`. Ctrl-C during the march returns the steps computed so far,
     with the attribute `complete` 0.
@@ -118,6 +120,7 @@ def settled(scene: Scene | Model, progress: Progress) -> SettledScene:
             f"simulate takes the scene of a pair, from load_scene, not an object of type {type(known).__name__}. A"
             " train is read by load_train and run by simulate_train"
         )
+    refuse_wrong(known)
     target = known.accuracy.target
     if target is None:
         return SettledScene(scene)

@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import math
+import numbers
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import fields, replace
+from dataclasses import fields, is_dataclass, replace
 from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from fenics_gears.effects import effects_on
-from fenics_gears.errors import GearsError
+from fenics_gears.errors import GearsError, SceneError
 from fenics_gears.geometry.gear_data import GearData, GearPairData, Web
+from fenics_gears.inputs.problem import NOTHING_DONE
 from fenics_gears.inputs.section import allowed_in, field_of, section_within, tree_of
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.inputs.written import as_toml, toml_value
@@ -50,6 +52,53 @@ def why_another(scene: Scene, text: str) -> str:
         return ""
     verb = "is" if len(differing) == 1 else "are"
     return f"{', '.join(differing)} {verb} not what a file, and the files that it names, can say"
+
+
+# What Python has for a field of a simple type, and its name in messages.
+_OF_TYPE = {
+    "int": (numbers.Integral, "a whole number, without unit"),
+    "float": (numbers.Real, "a number, in N, mm, s and rad"),
+    "str": (str, "a text"),
+}
+
+
+# Of mistakes. In Python other units than N, mm, s may be taken, beyond the ranges that a file has.
+_NEVER_ALLOWED = ("is not a finite number", "is zero", "is negative")
+
+
+def refuse_wrong(scene: Scene) -> None:
+    """Refuse a scene that was changed in Python to values that no scene file may have; raises SceneError, in the words
+    of `gears check`."""
+    mistakes = list(_of_another_type(scene, ""))
+    if mistakes:
+        raise SceneError("\n".join([*(f"{scene.name}: {said}" for said in mistakes), NOTHING_DONE]))
+    if not scene.text.startswith(NO_FILE):
+        return
+    text = as_toml(section_trees(scene))
+    try:
+        values_of_text(text, scene.name, directory=Path(scene.folder), with_lines=False)
+    except SceneError as error:
+        if any(words in str(error) for words in _NEVER_ALLOWED):
+            raise
+
+
+def _of_another_type(data: Any, home: str) -> Iterator[str]:
+    """Sentences on fields of a dataclass, and of those within it, that have no value of their type."""
+    for field in fields(data):
+        value = getattr(data, field.name)
+        place = f"{home}{field.name}"
+        kinds = str(getattr(field.type, "__name__", field.type)).split(" | ")
+        if is_dataclass(value):
+            yield from _of_another_type(value, f"{place}.")
+        elif kinds[0] in _OF_TYPE and not (value is None and "None" in kinds):
+            allowed = [_OF_TYPE[kind] for kind in kinds if kind in _OF_TYPE]
+            if not isinstance(value, tuple(python for python, _ in allowed)):
+                words = " or ".join(said for _, said in allowed)
+                yield f"{place} = {value!r} is of type {type(value).__name__}. Allowed: {words}."
+        elif (
+            not home and "None" not in kinds and kinds[0].isidentifier() and (value is None or value.__class__ is dict)
+        ):
+            yield f"{place} = {value!r} is of type {type(value).__name__}. Allowed: the data of a scene, {kinds[0]}."
 
 
 def section_trees(scene: Scene) -> dict[str, Any]:
@@ -138,6 +187,8 @@ def _motion(scene: Scene) -> dict[str, Any]:
     if motion.mesh_cycles == period:
         return tree | {"mesh_cycles": HUNTING_TOOTH_PERIOD}
     settling = (motion.mesh_cycles - max(period, LAST_CYCLES)) / motion.mesh_frequency
+    if settling < 0.0:  # changed in Python
+        return tree | {"mesh_cycles": motion.mesh_cycles, "recorded_cycles": motion.recorded_cycles}
     return tree | {"settling_time": field_of(schema.MotionText, "settling_time", settling)}
 
 

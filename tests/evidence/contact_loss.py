@@ -84,7 +84,7 @@ def picture(passed: dict[str, Sweep], free: Oscillator) -> Figure:
     largest = max(each.amplitude.max() for each in passed.values())
     curve = [free.period_and_swing(part * largest) for part in np.linspace(0.01, 1.0, 200)]
     shown = [(1.0 / period, 1e3 * swing) for period, swing in curve if swing <= largest]
-    axes.plot(*zip(*shown), "--", color=DARK, label="free vibration of the oscillator, closed form")
+    axes.plot(*zip(*shown), "--", color=DARK, label="free oscillator, closed form")
     axes.set(xlabel="Mesh frequency (Hz)", ylabel="Transmission error, peak to peak (µm)", ylim=(0.0, None),
              title="50/50, module 3 mm: contact loss through resonance")  # fmt: skip
     axes.legend(loc="upper left")

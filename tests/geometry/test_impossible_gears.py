@@ -28,6 +28,8 @@ IMPOSSIBLE = {
         "34.6 mm", "the fillet cuts off the involute up to 34.", "No change of gears.pinion.tip_diameter"]),
     "contact ratio by undercut": (few_teeth(8, 0.0) | {"centre_distance": 72.9}, ["pair: contact ratio 0.9",
         "shortened by the undercut pinion", "at least 1", "profile_shift"]),
+    "profile shift of 1.4": (few_teeth(18, 1.4) | {"pinion.root_diameter": 82.35}, ["pinion: no dedendum", "82.35 mm",
+        "lower gears.pinion.profile_shift to 1."]),
     "pointed tip": ({"wheel.tip_diameter": 127.0}, ["wheel: pointed tip", "127 mm", "gears.wheel.tip_diameter"]),
     "tip eight modules too high": ({"wheel.tip_diameter": 160.0}, ["wheel: pointed tip", "160 mm",
         "lower gears.wheel.tip_diameter to 12"]),

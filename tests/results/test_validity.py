@@ -6,14 +6,16 @@ import numpy as np
 import pytest
 from tests.coarse import COARSE
 
-from fenics_gears import model_of, simulate
+from fenics_gears import model_of, simulate, simulate_train
 from fenics_gears.dynamics.torque_ripple import Harmonic, TorqueRipple
 from fenics_gears.effects.corner_contact import EdgeRadii
 from fenics_gears.effects.tip_relief import TipRelief
 from fenics_gears.geometry.relief import LINEAR, PARABOLIC, Relief
+from fenics_gears.results.mesh_of_train import mesh_run
 from fenics_gears.results.pressure_limits import yielding
 from fenics_gears.results.summary import summary_rows
 from fenics_gears.scene.data import Material, Motion
+from fenics_gears.scene.train import train_from_text
 from fenics_gears.system.progress import SilentProgress
 
 
@@ -162,3 +164,40 @@ def test_a_march_that_fails_at_its_start_leaves_an_empty_incomplete_result(coars
         simulate(replace(coarse, torque_ripple=ripple))
     assert failure.value.partial.sizes["time"] == 0
     assert failure.value.partial.attrs["complete"] == 0
+
+
+OVERLOADED_SET = """
+title = "Overloaded set"
+[stages.e]
+kind = "planetary"
+module = "3 mm"
+pressure_angle = "20 deg"
+face_width = "20 mm"
+planets = 5
+sun = { teeth = 20, profile_shift = 0, bore_diameter = "20 mm" }
+planet = { teeth = 20, profile_shift = 0, bore_diameter = "30 mm" }
+ring = { teeth = 60, profile_shift = 0, outer_diameter = "215 mm", cutter = { teeth = 23 }, support = "held" }
+material = { youngs_modulus = "206 GPa", poissons_ratio = 0.3, yield_strength = "300 MPa" }
+fixed = "ring"
+input = "sun"
+output = "carrier"
+[load]
+input_torque = "900 N m"
+[accuracy]
+steps_per_mesh_cycle = 30
+flank_element_size = "0.2 mm"
+"""
+
+
+def test_meshes_computed_together_tell_sharp_edges_and_yielding_once():
+    """An identity: five equal planets of a rigid frame carry alike, so each sentence names all five meshes, and each
+    mesh as a pair has it."""
+    train = train_from_text(OVERLOADED_SET)
+    found = simulate_train(train)
+    said = found.attrs["warnings"].splitlines()
+    suns = "; ".join(f"e: sun, planet {number}" for number in range(1, 6))
+    for words in ("contact reaches the sharp edge of the sun's", "above what the sun's material bears"):
+        (only,) = [line for line in said if words in line]
+        assert only.startswith(f"{suns}: ")
+        own = [mesh_run(found, train, number).attrs["warnings"] for number in range(len(train.meshes))]
+        assert sum(words in each for each in own) == 5

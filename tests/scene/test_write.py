@@ -11,11 +11,11 @@ from tests.effects.examples import EXAMPLES, scene_of, with_needs
 from tests.hard_cases.random_scenes import valid_scenes
 from tests.scene.test_cut_away import RACK, SCENE
 
-from fenics_gears import Load, Material, Scene, SceneError, as_toml, load_scene, scene_from_text
+from fenics_gears import Load, Material, Scene, SceneError, as_toml, load_scene, scene_from_text, simulate
 from fenics_gears.scene.data import Accuracy, Motion
 from fenics_gears.scene.parsing import NO_FILE
 from fenics_gears.scene.schema import WORDS
-from fenics_gears.scene.write import section_trees, text_of
+from fenics_gears.scene.write import refuse_wrong, section_trees, text_of
 
 DEMOS = Path(__file__).parents[2] / "demos"
 SCENES = [
@@ -151,3 +151,22 @@ def test_what_no_file_gives_is_said(paper_scene):
     with pytest.raises(SceneError):
         scene_from_text(text)
     assert set(WORDS) <= set(Scene.__dataclass_fields__)
+
+
+@pytest.mark.parametrize(
+    "section, changes, words",
+    [
+        ("load", {"wheel_torque": float("nan")}, "load.wheel_torque = .*not a finite number"),
+        ("load", {"wheel_torque": "437 N m"}, "load.wheel_torque = '437 N m' is of type str. Allowed: a number"),
+        ("accuracy", {"steps_per_mesh_cycle": 0}, "is zero. Allowed: a whole number from 2"),
+        ("accuracy", {"steps_per_mesh_cycle": 20.5}, "is of type float. Allowed: a whole number"),
+        ("motion", {"mesh_cycles": -2}, "is negative. Allowed: a whole number from 1"),
+    ],
+)
+def test_a_scene_changed_to_what_no_file_may_have_is_refused(paper_scene, section, changes, words):
+    """Standard: what `gears check` says of a file with the same values. A scene that a file may have passes."""
+    refuse_wrong(paper_scene)
+    with pytest.raises(SceneError, match=f"(?s){words}.*Nothing was computed"):
+        simulate(replace(paper_scene, **{section: replace(getattr(paper_scene, section), **changes)}))
+    with pytest.raises(SceneError, match="load = None is of type NoneType"):
+        simulate(replace(paper_scene, load=None))

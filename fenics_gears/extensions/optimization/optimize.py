@@ -121,12 +121,26 @@ def _opening(design: Design, count: int, evaluator: Evaluator, work: ExpectedWor
     )
 
 
+def _broken(design: Design, tried: Evaluation) -> str:
+    """Numbers of a design that are beyond their bounds, on average over its samples, and what is allowed."""
+    said = []
+    for bound in design.bounds:
+        goal = bound.goal
+        value = max(tried.at_points.get(goal.name, ()), key=bound.violation, default=None)
+        if value is not None and bound.violation(value):
+            ends = (("at least", bound.at_least), ("at most", bound.at_most))
+            allowed = " and ".join(f"{words} {end:.4g}" for words, end in ends if np.isfinite(end))
+            said.append(f"{goal.name} is {value:.4g} {goal.unit}".rstrip() + f", {allowed} allowed")
+    return f" ({'; '.join(said)})" if said else ""
+
+
 def chosen(design: Design, before: Evaluation, tried: Sequence[Evaluation]) -> int:
     """The place of the design with the least `score`. Raises ComputationError where none keeps the constraints."""
     allowed = [place for place, each in enumerate(tried) if each.allowed]
     if not allowed:
         failed = [each.failure for each in tried if each.failure]
-        why = f"the nearest one breaks the bounds by {min(each.violation for each in tried):.3g} of them"
+        nearest = min(tried, key=lambda each: each.violation)
+        why = f"the nearest one breaks the bounds by {nearest.violation:.3g} times their size{_broken(design, nearest)}"
         if failed:
             why = f"{len(failed)} failed, the first since: {failed[0]}"
         raise ComputationError(

@@ -292,6 +292,9 @@ def test_several_goals_give_a_front_and_weights_choose_from_it(folder):
         )
 
     assert summed(outcome.chosen) == min(map(summed, outcome.tried))
+    limited = replace(outcome.design, bounds=(Bound(outcome.design.goals[1], at_most=10.0),))
+    with pytest.raises(ComputationError, match=r"peak_contact_pressure is \d+(\.\d+)? MPa, at most 10 allowed"):
+        chosen(limited, outcome.before, [replace(each, violation=1.0) for each in outcome.tried])
     only = [replace(outcome.tried[0], violation=1.0)]
     with pytest.raises(ComputationError, match="the nearest one breaks the bounds by 1"):
         chosen(outcome.design, outcome.before, only)
