@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 from math import pi
 
+from fenics_gears.dynamics.crack_openings import openings_of
 from fenics_gears.inputs.fields import quantities, quantity, whole_number
 from fenics_gears.inputs.problem import Broken
 from fenics_gears.inputs.section import Section
@@ -18,6 +19,10 @@ WHEEL = 1
 MOST = 200
 # Points closer than this, rad, are one.
 APART = 1e-6
+FORCES = {
+    "wheel_support_radial": "radial force of the point on the wheel, positive outwards",
+    "wheel_support_tangential": "tangential force of the point on the wheel, positive in the pinion's sense of rotation",
+}
 STIFFNESS = "1 N/mm to 1e12 N/mm"
 
 
@@ -88,20 +93,14 @@ def elasticity(points: WheelPoints, model, name: str, reach, cache):
     return ring_on_points(model.pair.wheel, material, division, (points.places, springs), reach.same + 1, cache)
 
 
-def results(points: WheelPoints, scene, cycle, steps) -> dict:
-    """Forces (time, support) of all points on the wheel, N."""
+def watched(points: WheelPoints, cycle, steps) -> dict:
+    """Forces (steps, support) of all points on the wheel, N."""
     import numpy as np
 
-    from fenics_gears.dynamics.crack_openings import openings_of
-
     side = cycle.pair.sides[WHEEL]
-    records = steps.records
-    forces = np.array([openings_of(cycle, side, record) for record in records])
-    forces = cycle.pair.effective_face_widths[WHEEL] * forces.reshape(len(records), -1, 2)
-    return {
-        f"wheel_support_{name}": (("time", "support"), forces[:, :, number])
-        for number, name in enumerate(("radial", "tangential"))
-    }
+    loads = np.array([openings_of(cycle, side, record) for record in steps.records])
+    forces = cycle.pair.effective_face_widths[WHEEL] * loads.reshape(len(loads), -1, 2)
+    return {name: forces[:, :, number] for number, name in enumerate(FORCES)}
 
 
 def period(points: WheelPoints, scene) -> int:
@@ -117,17 +116,9 @@ EFFECT = Effect(
     terms=("a flank compliance for each tooth of the wheel", "contact equations that change with the teeth in mesh"),
     needs=("tooth_elasticity",),
     excludes=("body_meshes", "coast_flanks", "lead_modifications", "misalignment"),
-    variables=tuple(
-        ResultVariable(
-            f"wheel_support_{name}", "N", f"{words} force of the point on the wheel", dims=("time", "support")
-        )
-        for name, words in (
-            ("radial", "radial (outwards)"),
-            ("tangential", "tangential (counter-clockwise where the pinion turns so)"),
-        )
-    ),
+    variables=tuple(ResultVariable(name, "N", words, dims=("time", "support")) for name, words in FORCES.items()),
     rules=points_hold_a_wheel,
     elasticity=elasticity,
-    results=results,
+    watched=watched,
     period=period,
 )

@@ -39,7 +39,7 @@ def ring_on_points(
     cache: Cache | None = None,
 ) -> WholeBodyCompliance:
     """Flank compliance of every tooth, from the cache or computed. Its `openings` are what flank forces load the points
-    with: radial (outwards), then tangential (counter-clockwise) line forces of all, N/mm per N/mm.
+    with: the radial (outwards) and the tangential (counter-clockwise) line force on the gear of each, N/mm per N/mm.
 
     points: their angles (k,), rad, counter-clockwise from the centreline of tooth 0, and the radial and tangential
     stiffness of each per face width, N/mm^2. A point takes the mean motion of the outer circle over a pitch, between
@@ -93,7 +93,7 @@ def _computed(
     means[flank.size :] = mean_motions(outer)
     parts = [_part(stiffness, means, flank.size, own) for own in springs.sum(axis=0)]
     blocks, moved = _joined(parts, flank.size, offsets)
-    forces = np.einsum("psk,tskf->tkpf", springs, moved).reshape(len(parts), -1, flank.size)
+    forces = np.einsum("psk,tskf->tpkf", springs, moved).reshape(len(parts), -1, flank.size)
     corners = by_radius(mesh.points[mesh.edge_points("flank")])
     arrays = {"blocks": blocks, "point_forces": -forces, "roll_angle": node_roll_angles(gear, corners, element.order)}
     compiling = sector.timings["time_compile"]
