@@ -21,7 +21,7 @@ MOST = 200
 APART = 1e-6
 FORCES = {
     "wheel_support_radial": "radial force of the point on the wheel, positive outwards",
-    "wheel_support_tangential": "tangential force of the point on the wheel, positive in the pinion's sense of rotation",
+    "wheel_support_tangential": "tangential force of the point on the wheel, positive as the pinion turns",
 }
 STIFFNESS = "1 N/mm to 1e12 N/mm"
 
