@@ -187,7 +187,7 @@ def check_support(scene: Scene, pair: GearPair) -> None:
             f"{words}. What holds it has to be said:"
             ' gears.wheel.support = "held" where the outer circle cannot move, or'
             ' [gears.wheel.support] with kind = "foundation", radial_stiffness and tangential_stiffness per area,'
-            " or [wheel_points] for bolts, pins or splines."
+            " or, of a pair in the plane, [wheel_points] for bolts, pins or splines."
             "\nNothing was computed or written."
         )
 

@@ -4,10 +4,12 @@ from math import pi
 
 import numpy as np
 import pytest
-from tests.internal import COARSE, internal_scene
+from tests.internal import COARSE as COARSE_FLANKS
+from tests.internal import internal_scene, moving
 
 from fenics_gears import GearsError, model_of, scene_from_text, simulate
 
+COARSE = f'{COARSE_FLANKS}body_element_size = "3 mm"\n'
 STIFF = 'radial_stiffness = "2e5 N/mm"\ntangential_stiffness = "1e5 N/mm"'
 LONG = "\n[motion]\nmesh_cycles = 4\n"
 TWO = LONG.replace("4", "2")
@@ -40,6 +42,12 @@ def test_bolts_on_every_tooth_are_a_foundation():
     on_bolts = simulate(scene_from_text(text)).transmission_error.values
     even = simulate(scene_from_text(internal_scene(wheel=springs, more=COARSE + TWO))).transmission_error.values
     assert np.abs(on_bolts - even).max() < 0.01 * np.abs(even).max()
+
+
+def test_what_bolts_store_is_in_the_account_of_energy():
+    """Energy balance of a run in time with friction: its defect is round-off of the work done."""
+    run = simulate(scene_from_text(points_scene(more=COARSE + moving(2))))
+    assert np.abs(run.energy_defect.values).max() < 1e-9 * np.abs(run.work_input.values).max()
 
 
 @pytest.mark.parametrize(
