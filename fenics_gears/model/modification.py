@@ -186,8 +186,7 @@ def check_support(scene: Scene, pair: GearPair) -> None:
         raise SceneError(
             f"{words}. What holds it has to be said:"
             ' gears.wheel.support = "held" where the outer circle cannot move, or'
-            ' [gears.wheel.support] with kind = "foundation", radial_stiffness and tangential_stiffness per area,'
-            " or, of a pair in the plane, [wheel_points] for bolts, pins or splines."
+            ' [gears.wheel.support] with kind = "foundation", radial_stiffness and tangential_stiffness per area.'
             "\nNothing was computed or written."
         )
 
