@@ -18,7 +18,7 @@ from .effect import OF_GEARS, OF_NODES, OF_PAIRS, OF_POINTS, OF_SLICES, OF_TIME,
 AT_THE_TOP = (
     "body_meshes", "shafts", "bearings", "inertia", "damping", "friction", "tip_relief", "root_relief",
     "lead_modifications", "misalignment", "flank_errors", "eccentricity", "coast_flanks", "corner_contact",
-    "torque_ripple", "speed_ramp", "profile_modifications",
+    "torque_ripple", "speed_ramp", "profile_modifications", "wheel_points",
 )  # fmt: skip
 SECTIONS = ("tooth_elasticity", *AT_THE_TOP)
 # What opens the flanks along a face.

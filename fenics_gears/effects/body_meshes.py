@@ -90,7 +90,12 @@ def meshes_are_given_and_used(tree: Tree) -> Broken:
         if gear in section and value_at(tree, "gears", gear, "web") is not None:
             message = f"cannot be combined with body_meshes.{gear}, which says where the body is. Leave one out."
             yield ("gears", gear, "web"), message
-    beside = "cannot be combined with [body_meshes]"
+    yield from only_teeth_that_differ(tree, "body_meshes")
+
+
+def only_teeth_that_differ(tree: Tree, section: str) -> Broken:
+    """What cannot stand beside a section by which teeth are not alike."""
+    beside = f"cannot be combined with [{section}]"
     for name, allowed in (("model", "elastic"), ("condensation", "once")):
         written = value_at(tree, "accuracy", name)
         if written != allowed and isinstance(written, str):

@@ -76,7 +76,8 @@ class Effect:
     ``check(data, scene, pair)``: raises SceneError where those files, or this load and speed, are wrong.
     ``fits(data, model)``: raises SceneError where the run's settings, given or chosen, are too coarse for it.
     ``warnings(data, model)``: sentences to read before the run.
-    ``watched(data, cycle, steps)``: values (steps,) of ``dynamics.steps.Steps`` that the findings need, by name.
+    ``watched(data, cycle, steps)``: values (steps,) of ``dynamics.steps.Steps`` that the findings need, by name;
+    of its own variables, results (steps, ...).
     ``findings(data, watched)``: sentences on where a run violates what the effect assumes.
     ``results(data, scene, cycle, steps)``: its own variables at steps (time,), name to (dimensions, values).
     ``period(data, scene)``: mesh cycles after which what it does repeats, infinite where never; 1 unless given.

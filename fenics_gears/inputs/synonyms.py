@@ -23,6 +23,7 @@ SYNONYMS = {
     "torque_ripple": "torque_fluctuation",
     "speed_ramp": "run_up coast_down",
     "body_meshes": "meshes cracks crack",
+    "wheel_points": "bolts pins splines points ring_support",
     "gears.module": "m mn m_n normal_module",
     "gears.transverse_module": "mt m_t",
     "gears.diametral_pitch": "dp pd p_d pitch transverse_diametral_pitch",

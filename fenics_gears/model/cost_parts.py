@@ -95,9 +95,11 @@ def _counted(pair, grid, along, coast, corner) -> tuple[float, float, float]:
 
 def _positions(model: Model) -> int:
     """Positions of the run that have contact operators of their own."""
-    teeth = [getattr(model.pair, name).teeth for name in GEARS if meshed_unknowns(model, name) is not None]
-    unlike = min(lcm(*teeth), UNLIKE_CYCLES ** len(teeth))
-    return min(unlike * model.resolution.steps_per_mesh_cycle, model.steps + 2)
+    on_points = (None, model.scene.wheel_points)
+    unlike = (meshed_unknowns(model, name) or given for name, given in zip(GEARS, on_points))
+    teeth = [gear.tooth_count for gear, own in zip(model.pair.gears, unlike) if own is not None]
+    cycles = min(lcm(*teeth), UNLIKE_CYCLES ** len(teeth))
+    return min(cycles * model.resolution.steps_per_mesh_cycle, model.steps + 2)
 
 
 def meshed_unknowns(model: Model, name: str) -> int | None:

@@ -30,7 +30,7 @@ from fenics_gears.scene.schema import WORDS, MotionText
 from .drivetrain import drivetrain, mesh_stiffness
 from .modification import check_bodies, corner, removals, rim_warnings
 from .resolution import Resolution, locking_warnings, resolution_warnings, resolve
-from .storage import Arrays, counted_bytes, packed_bytes, sizes, stored_arrays
+from .storage import Arrays, counted_bytes, packed_bytes, sizes, stored_arrays, support_points
 
 if TYPE_CHECKING:
     from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
@@ -152,7 +152,8 @@ class Model:
     def _stored(self) -> tuple[Arrays, dict[str, int]]:
         slots = self.touching.slots
         nodes = self.resolution.contact_grid.most_nodes
-        size = sizes(self.steps + 1, self.contact_steps, slots, nodes, self.face.slices, self.drivetrain.bearings)
+        counts = self.drivetrain.bearings, support_points(self.scene)
+        size = sizes(self.steps + 1, self.contact_steps, slots, nodes, self.face.slices, *counts)
         return stored_arrays(self.scene, size), size
 
     @property

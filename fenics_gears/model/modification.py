@@ -182,7 +182,7 @@ def _bends(scene: Scene, pair: GearPair) -> str:
 def check_support(scene: Scene, pair: GearPair) -> None:
     """Refuse a thin rim whose support is not given. Raises SceneError."""
     words = _bends(scene, pair)
-    if words and scene.gears.wheel.support is None:
+    if words and scene.gears.wheel.support is None and scene.wheel_points is None:
         raise SceneError(
             f"{words}. What holds it has to be said:"
             ' gears.wheel.support = "held" where the outer circle cannot move, or'
@@ -194,6 +194,6 @@ def check_support(scene: Scene, pair: GearPair) -> None:
 def ring_warnings(scene: Scene, pair: GearPair) -> list[str]:
     """A sentence on a thin rim that is held."""
     words = _bends(scene, pair)
-    if not words or pair.wheel.foundation is not None:
+    if not words or pair.wheel.foundation is not None or scene.wheel_points is not None:
         return []
     return [f"{words}; held at its outer circle it does not bend: right in a stiff housing, with a press fit alone"]

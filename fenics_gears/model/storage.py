@@ -43,14 +43,21 @@ def fillet_points(slices: int) -> int:
     return FILLET_POINTS if slices == 1 else FILLET_POINTS_OVER_FACE
 
 
-def sizes(steps: int, contact_steps: int, slots: int, nodes: int, slices: int = 1, bearings: int = 0) -> dict[str, int]:
+def sizes(
+    steps: int, contact_steps: int, slots: int, nodes: int, slices: int = 1, bearings: int = 0, points: int = 0
+) -> dict[str, int]:
     """Length of each dimension of a result with so many steps, of which the contact fields of so many are stored."""
     return {
         "face_position": slices,
-        "bearing": bearings, "shaft_point": SHAFT_POINTS,
+        "bearing": bearings, "support": points, "shaft_point": SHAFT_POINTS,
         "time": steps, "contact_time": contact_steps, "slot": slots, "contact_node": nodes,
         "gear": 2, "fillet": 2, "fillet_point": 2 * fillet_points(slices),
     }  # fmt: skip
+
+
+def support_points(scene: Scene) -> int:
+    """Number of points that hold the wheel."""
+    return 0 if scene.wheel_points is None else len(scene.wheel_points.places)
 
 
 def stored_arrays(scene: Scene, size: Mapping[str, int]) -> Arrays:

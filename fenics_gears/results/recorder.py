@@ -18,7 +18,7 @@ from fenics_gears.dynamics.stepping import VaryingLoad
 from fenics_gears.dynamics.steps import Steps
 from fenics_gears.effects import effects_on, from_effects
 from fenics_gears.model.model import Model
-from fenics_gears.model.storage import ArraysInMemory, KeptArrays, sizes, stored_arrays
+from fenics_gears.model.storage import ArraysInMemory, KeptArrays, sizes, stored_arrays, support_points
 
 from .contact_variables import (
     energy_variables,
@@ -86,9 +86,8 @@ class Recorder:
         self.first_number = 1 + ways.latest
         self.slots = ways.slots
         nodes = cycle.grid.most_nodes
-        self.size = sizes(
-            model.steps + 1, model.contact_steps, self.slots, nodes, cycle.face.slices, model.drivetrain.bearings
-        )
+        counts = model.drivetrain.bearings, support_points(model.scene)
+        self.size = sizes(model.steps + 1, model.contact_steps, self.slots, nodes, cycle.face.slices, *counts)
         self.stored = stored_arrays(model.scene, self.size)
         self._room = ArraysInMemory(self.stored, model.steps + 1, model.contact_steps)
         self._journal = None if journal is None else Journal(journal, model.scene)
@@ -171,13 +170,15 @@ class Recorder:
             fields |= self.stress.values(nodes)
         for watched_by_effect in from_effects(scene, "watched", cycle, block):
             watched |= watched_by_effect
-        evaluated = values | fields
+        evaluated = values | fields | watched
         kept = {
             name: self._in_shape(evaluated[name], dims) for name, (dims, _) in self.stored.items() if name in evaluated
         }
-        self._room.put(self.steps, kept | {f"{WATCHED}{name}": of for name, of in watched.items()})
+        self._room.put(
+            self.steps, kept | {f"{WATCHED}{name}": of for name, of in watched.items() if name not in self.stored}
+        )
         # Last of all: a march that is interrupted before this line evaluates these steps again.
-        self._watched = tuple(watched)
+        self._watched = tuple(name for name in watched if name not in self.stored)
         del self._waiting[0]
         self._last = block.between(len(block) - 1, len(block))
         self._worked = worked

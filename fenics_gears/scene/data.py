@@ -43,6 +43,7 @@ if TYPE_CHECKING:
     from fenics_gears.effects.root_relief import RootRelief
     from fenics_gears.effects.speed_ramp import SpeedRamp
     from fenics_gears.effects.tip_relief import TipRelief
+    from fenics_gears.effects.wheel_points import WheelPoints
     from fenics_gears.geometry.flank_errors import FlankErrors
     from fenics_gears.geometry.lead_modification import LeadModifications
     from fenics_gears.geometry.misalignment import Misalignment
@@ -85,6 +86,7 @@ class Scene:
     torque_ripple: TorqueRipple | None = None
     speed_ramp: SpeedRamp | None = None
     profile_modifications: ProfileModifications | None = None
+    wheel_points: WheelPoints | None = None
     measured_over: MeasuredOver = field(default=(NOT_GIVEN, NOT_GIVEN), compare=False, repr=False)
     written: str = field(default="", compare=False, repr=False)
     folder: str = field(default="", compare=False, repr=False)

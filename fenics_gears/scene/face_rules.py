@@ -49,9 +49,9 @@ def _faces_are_resolved_by_elastic_contact(tree: Tree, reasons: Sequence[Path]) 
     of_scene = next((path for path in reasons if path in NOT_EFFECTS), None)
     if of_scene is None:
         return
-    if "body_meshes" in tree:
+    for section in (each for each in ("body_meshes", "wheel_points") if each in tree):
         beside = f"cannot be combined with {dotted(of_scene)}: flanks are then resolved over the face"
-        yield ("body_meshes",), f"{beside}, and the mesh of a plane section is not. Leave one of the two out."
+        yield (section,), f"{beside}, and a body of a plane section is not. Leave one of the two out."
     if not material_sections(tree):
         yield of_scene, "needs elastic teeth. Add [gears.material], or leave it out."
 

@@ -122,7 +122,7 @@ class SupportText(Section):
     kind: str = choice(
         *SUPPORTS,
         meaning="`held`: the outer circle is rigid; `foundation`: springs evenly over the outer circle, as of a soft"
-        " housing, whose other end is rigid",
+        " housing, whose other end is rigid. Bolts, pins and splines of a pair in the plane are `[wheel_points]`",
         otherwise="`held`",
     )
     radial_stiffness: float | None = quantity(

@@ -27,7 +27,7 @@ OF_A_ROW = (*SHARED, "tip_relief", "root_relief", "profile_modifications", "corn
 RUN_OUT = "eccentricity"
 # Of single gears: of a pair by `pinion` and `wheel`, of a row by their numbers.
 OF_GEARS = ("flank_errors", RUN_OUT)
-OF_A_STAGE = (*OF_A_ROW, "coast_flanks", "body_meshes", *OF_GEARS)
+OF_A_STAGE = (*OF_A_ROW, "coast_flanks", "body_meshes", "wheel_points", *OF_GEARS)
 OF_A_PAIR = ("shafts", "damping", "torque_ripple", "speed_ramp")
 OF_A_TRAIN = ("title", "stages", "load", "motion", *SHARED, "shafts", "damping", "speed_ramp")
 MOST_STAGES = 20

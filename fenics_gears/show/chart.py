@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import cycle
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -173,7 +174,10 @@ def of_variables(
         if name in run.dataset:
             values = run.values(name, unit)
             if values.ndim == 2:
-                curves += zip(run.dataset["gear"].values.tolist(), values.T, PALETTE[2:4])
+                along = run.dataset[name].dims[1]
+                listed = run.dataset[along].values.tolist()
+                own = PALETTE[2:4] if along == "gear" else cycle(PALETTE)
+                curves += zip(listed if along == "gear" else (f"{along} {each + 1}" for each in listed), values.T, own)
             else:
                 curves.append((words, values, colour))
     if not curves:

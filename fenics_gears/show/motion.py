@@ -179,4 +179,10 @@ def _reactions(run: ShownRun) -> list[Chart]:
         of_variables(run, f"Reaction of either gear on its shaft {words} the line of action", "Force", "N", {name: ""})
         for name, words in sides.items()
     ]
+    charts += [
+        of_variables(
+            run, f"{words} forces of points on the wheel", "Force", "N", {f"wheel_support_{words.lower()}": ""}
+        )
+        for words in ("Radial", "Tangential")
+    ]
     return [*sum(charts, []), *shaft_torques(run)]

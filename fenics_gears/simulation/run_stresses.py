@@ -222,7 +222,9 @@ class RunStresses:
                 ' the scene with "elastic".'
             )
         if any(effect.elasticity is not None for effect in effects_on(scene)):
-            raise SceneError("stresses are those of gears of equal sectors; this run has [body_meshes].")
+            raise SceneError(
+                "stresses are those of gears of equal sectors; this run has [body_meshes] or [wheel_points]."
+            )
         if self.model.resolution.condensation != ONCE:
             raise SceneError(
                 'the run has [accuracy] condensation = "every step": there are no stresses. Run the scene with "once".'

@@ -16,7 +16,7 @@ from fenics_gears.results.attributes import RESULT_ATTRIBUTES
 from fenics_gears.results.numbers import ESTIMATED, RUNG
 
 PAGE = ROOT / "docs" / "result.md"
-# Bodies read from meshes exclude other effects and have no variables of their own; what makes a scene three-dimensional
+# Bodies whose teeth differ exclude other effects; what makes a scene three-dimensional
 # gives fields another dimension.
 NOT_IN_THE_RUN = {each.section for each in every_effect() if each.excludes} | {"lead_modifications", "misalignment"}
 
@@ -68,7 +68,10 @@ def _variables(result: xr.Dataset, variables: Sequence[ResultVariable]) -> list[
     """Dimensions are those of the run's variable, units and words must be the declared ones."""
     rows = []
     for each in variables:
-        if (each.field or each.over_face) and each.name not in result:
+        if each.name not in result and not (each.field or each.over_face):
+            rows.append((f"`{each.name}`", ", ".join(each.dims), each.units, each.long_name))
+            continue
+        if each.name not in result:
             where = f"with `{each.field.replace(' or ', '` or `')}`" if each.field else "of three-dimensional scenes"
             rows.append((f"`{each.name}`", ", ".join(each.dims), each.units, f"{each.long_name} (only {where})"))
             continue

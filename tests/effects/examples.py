@@ -55,6 +55,12 @@ poissons_ratio = 0.3
 [body_meshes]
 pinion = "meshes/cracked_pinion.msh"
 """,
+    "wheel_points": """
+[wheel_points]
+count = 8
+radial_stiffness = "2e5 N/mm"
+tangential_stiffness = "2e5 N/mm"
+""",
     "shafts": """
 [shafts]
 torsional_stiffness = "0.203e9 N mm/rad"

@@ -29,6 +29,7 @@ METHODS = {
     "friction": {"fenics_gears.contact.uniqueness"},
     "corner_contact": {"fenics_gears.contact.corner", "fenics_gears.geometry.tip_edge"},
     "body_meshes": {"fenics_gears.elasticity.whole_body.condensed", "fenics_gears.contact.whole_body_mesh"},
+    "wheel_points": {"fenics_gears.elasticity.whole_body.ring_on_points", "fenics_gears.contact.whole_body_mesh"},
     "lead_modifications": {"fenics_gears.geometry.face", "fenics_gears.contact.face_mesh"},
     "misalignment": {"fenics_gears.geometry.face", "fenics_gears.contact.face_mesh"},
     TEETH: {"fenics_gears.elasticity.gear_compliance"},

@@ -36,6 +36,12 @@ def test_needs_and_conflicts_are_found():
     """docs/promises.md."""
     assert effects.missing_needs(["damping"]) == [(effects.effect_named("damping"), "inertia")]
     assert effects.missing_needs(["damping", "inertia"]) == []
-    pairs = (("body_meshes", "coast_flanks"), ("lead_modifications", "body_meshes"), ("misalignment", "body_meshes"))
+    of_points = ("body_meshes", "coast_flanks", "lead_modifications", "misalignment")
+    pairs = (
+        ("body_meshes", "coast_flanks"),
+        ("lead_modifications", "body_meshes"),
+        ("misalignment", "body_meshes"),
+        *(("wheel_points", other) for other in of_points),
+    )
     assert effects.conflicts(SECTIONS) == [(effects.effect_named(effect), other) for effect, other in pairs]
-    assert effects.conflicts([section for section in SECTIONS if section != "body_meshes"]) == []
+    assert effects.conflicts([section for section in SECTIONS if section not in ("body_meshes", "wheel_points")]) == []
