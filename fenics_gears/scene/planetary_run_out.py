@@ -89,7 +89,7 @@ def _errors_seen(listed: Sequence[tuple[SharedGear, GearErrors]], side: Side) ->
         if own.pitch is not None:
             pitch = own.pitch
             first = begins
-        if not shared.mirrored:
+        if not shared.mirrored and _of_flanks(own):
             here = shared.meshes[0] == shared.meshes[1]
             found = own if here else counted_from(own, begins, side.gear.tooth_count, side.turn)
     return replace(found, pitch=pitch, first=first)
@@ -161,11 +161,9 @@ def _check_said_once(
     otherwise; `where`: its name and the mesh that has them."""
     name, number = where
     side = meshes[number].gears.index(name)
-    of_flanks = replace(own, pitch=None) != GearErrors()
     for (gear, other), errors in known.items():
-        flanks_too = (
-            of_flanks and meshes[other].gears.index(gear) == side and replace(errors, pitch=None) != GearErrors()
-        )
+        same = meshes[other].gears.index(gear) == side
+        flanks_too = same and _of_flanks(own) and _of_flanks(errors)
         if gear == name and (flanks_too or None not in (own.pitch, errors.pitch)):
             raise SceneError(f"{place} flank errors in two stages. Allowed: in one of them. {NOTHING_DONE}")
     # Between the mean of the active profile, or its ends, a deviation is another where that begins elsewhere.
@@ -178,6 +176,11 @@ def _check_said_once(
             f"{place} profile deviations over its active profile, which begins elsewhere with another mate of the same"
             f" flanks. Allowed: profile_curves that are zero at the reference point. {NOTHING_DONE}"
         )
+
+
+def _of_flanks(own: GearErrors) -> bool:
+    """Whether there are errors that are no pitch errors."""
+    return replace(own, pitch=None) != GearErrors()
 
 
 def _offset(axes: np.ndarray, turning: float, own: RunOut) -> Offset:

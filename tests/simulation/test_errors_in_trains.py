@@ -16,7 +16,10 @@ from fenics_gears import (
     simulate_train,
     train_from_text,
 )
-from fenics_gears.geometry.flank_errors import GearErrors
+from fenics_gears.contact.flank_gaps import _amounts
+from fenics_gears.geometry.flank_deviations import flank_deviations
+from fenics_gears.geometry.flank_errors import LISTS, FlankErrors, GearErrors, Waviness, counted_from
+from fenics_gears.inputs.tree import GEARS
 
 DISTANCE = 0.012
 ANGLE = 0.7
@@ -211,17 +214,36 @@ def test_an_idler_with_a_hardly_loaded_second_mate_has_the_errors_of_its_pair(tm
     assert second == GearErrors(pitch=second.pitch, first=second.first)
 
 
+@pytest.mark.parametrize("number", [0, 1], ids=["pinion", "wheel"])
+def test_counting_from_another_tooth_turns_all_deviations_round(number):
+    """Identity at every tooth, with helices and waves, of the driving and of the driven gear: but for pitches, whose
+    sum begins at one tooth, tooth t is what tooth t + 5 was."""
+    pair = two_stages().meshes[0].pair
+    side = pair.sides[number]
+    teeth = side.gear.tooth_count
+    lists = {name: tuple(np.sin(k * np.arange(teeth)).tolist()) for k, name in enumerate(LISTS[1:], start=1)}
+    own = GearErrors(**lists, waviness=Waviness(amplitude=0.002, waves=37, phase=0.4))
+
+    def amounts(of_gear: GearErrors) -> np.ndarray:
+        errors = FlankErrors(**{GEARS[number]: of_gear})
+        return _amounts(flank_deviations(errors, pair, (0.0, 0.0))[number], side)
+
+    found = amounts(counted_from(own, 5, teeth, side.turn))
+    assert found == pytest.approx(np.roll(amounts(own), -5, axis=0), abs=1e-12)
+
+
 @pytest.mark.parametrize(
     ("teeth", "said"),
     [("30", ""), ("34", "begins elsewhere with another mate"), ("30 again", "flank errors in two stages")],
 )
 def test_profiles_of_flanks_that_two_mates_load_are_said_once(teeth, said):
     """A slope goes from the start of the active profile, which two mates have to have in common; the tooth that the
-    second one meets first is a quarter of a turn on."""
+    second one meets first is a quarter of a turn on. Pitches may be said in the other stage."""
     slopes = ", ".join(f'"{each} um"' for each in (*range(19), 0))
     errors = f"flank_errors.pinion.profile_slope = [{slopes}]\n"
     text = mate("one", gear_text(20, 2.0), gear_text(30, 2.0), 0.0, more=errors)
-    again = errors if "again" in teeth else ""
+    pitches = "flank_errors.pinion.pitch = [" + '"1 um", "-1 um", ' * 10 + "]\n"
+    again = errors if "again" in teeth else pitches
     text += mate("two", '"one.pinion"', gear_text(int(teeth[:2]), 2.0), 90.0, more=again)
     loads = ", ".join(f'{{ on = "{name}.wheel", torque = "100 N m" }}' for name in ("one", "two"))
     text += f"[load]\ntorques = [{loads}]\n"
@@ -229,8 +251,10 @@ def test_profiles_of_flanks_that_two_mates_load_are_said_once(teeth, said):
         with pytest.raises(SceneError, match=said):
             train_from_text(text)
         return
-    found = train_from_text(text).meshes[1].scene.flank_errors.pinion.profile_slope
-    assert [round(1e3 * each) for each in found] == [*range(15, 19), 0, *range(15)]
+    first, second = (mesh.scene.flank_errors.pinion for mesh in train_from_text(text).meshes)
+    assert [round(1e3 * each) for each in first.profile_slope] == [*range(19), 0]
+    assert [round(1e3 * each) for each in second.profile_slope] == [*range(15, 19), 0, *range(15)]
+    assert (first.pitch, first.first, second.first) == (second.pitch, 5, 0)
 
 
 @pytest.mark.parametrize(
