@@ -1,6 +1,6 @@
 """Deviations of the teeth of both gears, as a scene gives them: ``[flank_errors]``."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from fenics_gears.inputs.fields import choice, file_name, quantities, quantity, whole_number
 from fenics_gears.inputs.section import Section
@@ -162,3 +162,26 @@ class FlankErrors(Section, PerGear):
     seed: int = whole_number(0, 2**31 - 1, 1, meaning="seed of the random numbers", default=1)
     pinion: GearErrors = GearErrors()
     wheel: GearErrors = GearErrors()
+
+
+def counted_from(own: GearErrors, first: int, teeth: int, turn: float) -> GearErrors:
+    """Deviations of a gear of so many `teeth` as they are counted from the tooth `first`, 0 for the first one that is
+    listed; `turn` (rad): from one tooth to the next, as of Side. Pitches stay as they are."""
+
+    def rolled(name: str) -> tuple[float, ...] | None:
+        values = getattr(own, name)
+        return None if values is None else (*values[first:], *values[:first])
+
+    def moved(measured: MeasuredCurves | None) -> MeasuredCurves | None:
+        if measured is None:
+            return None
+        curves = [replace(each, tooth=(each.tooth - 1 - first) % teeth + 1) for each in measured.curves]
+        return replace(measured, curves=tuple(curves))
+
+    lists = {name: rolled(name) for name in LISTS if name != "pitch"}
+    waves = own.waviness
+    if waves is not None:
+        waves = replace(waves, phase=waves.phase + waves.waves * turn * first)
+    curves = {"measured_profile": moved(own.measured_profile), "measured_helix": moved(own.measured_helix)}
+    # The values of a table are lists now.
+    return replace(own, **lists, **curves, waviness=waves, file=None, columns=())

@@ -6,7 +6,20 @@ from tests.planets import COARSE as COARSE_SET
 from tests.planets import planetary, written_out
 from tests.trains import COARSE, gear_text, mate, row_section, stage, two_stages
 
-from fenics_gears import SceneError, overall_orders, scene_from_text, simulate, simulate_train, train_from_text
+from fenics_gears import (
+    SceneError,
+    load_scene,
+    load_train,
+    overall_orders,
+    scene_from_text,
+    simulate,
+    simulate_train,
+    train_from_text,
+)
+from fenics_gears.contact.flank_gaps import _amounts
+from fenics_gears.geometry.flank_deviations import flank_deviations
+from fenics_gears.geometry.flank_errors import LISTS, FlankErrors, GearErrors, Waviness, counted_from
+from fenics_gears.inputs.tree import GEARS
 
 DISTANCE = 0.012
 ANGLE = 0.7
@@ -138,13 +151,118 @@ def test_pitches_of_gears_with_several_mates_are_those_of_a_set():
     np.testing.assert_allclose(of_set["normal_force"], of_pairs["normal_force"], rtol=1e-9)
 
 
+# Of the teeth of a gear that has 21.
+OF_TEETH = [4, -3, 2, 5, -6, 1, -3, 0, 2, -2, 6, -5, 3, -4, 1, -1, 2, -2, 4, -4, 0]
+
+
+def of_each_tooth(gear: str, folder) -> str:
+    """Measured profiles of some teeth, waves and pitches."""
+    points = [
+        (tooth, place, 0.02 * tooth * (place - 1.0) * (place - 8.0))
+        for tooth in (2, 3, 9, 20)
+        for place in (0.5, 5.0, 12.0)
+    ]
+    lines = [f"{tooth},{place},{deviation}" for tooth, place, deviation in points]
+    (folder / "profile.csv").write_text("\n".join(["tooth,roll_length (mm),deviation (um)", *lines, ""]))
+    pitches = ", ".join(f'"{each} um"' for each in OF_TEETH)
+    waves = 'waviness = { amplitude = "2 um", waves = 32, phase = "40 deg" }'
+    return f'[{gear}]\npitch = [{pitches}]\nprofile_curves = "profile.csv"\n{waves}\n'
+
+
+def slope_and_form(gear: str, _) -> str:
+    slopes = ", ".join(f'"{each} um"' for each in OF_TEETH)
+    forms = ", ".join(f'"{each} um"' for each in OF_TEETH[::-1])
+    return f"[{gear}]\nprofile_slope = [{slopes}]\nprofile_form = [{forms}]\n"
+
+
+@pytest.mark.parametrize("errors", [of_each_tooth, slope_and_form])
+def test_each_of_three_mates_meets_the_same_teeth_one_after_the_other(tmp_path, errors):
+    """Symmetry: mates that stand at three times 120 degrees around a gear of 21 teeth meet each of its teeth seven mesh
+    cycles after the mate before, and yield as that did; the gear turns counter-clockwise."""
+    hub, other = gear_text(21, 2.0), gear_text(30, 2.0)
+    text = mate("one", hub, other, 0.0) + errors("stages.one.flank_errors.pinion", tmp_path)
+    text += mate("two", '"one.pinion"', other, 120.0) + mate("three", '"one.pinion"', other, 240.0)
+    outputs = ", ".join(f'{{ on = "{name}.wheel", torque = "100 N m" }}' for name in ("one", "two", "three"))
+    text += f"[load]\ntorques = [{outputs}]\n[accuracy]\n{COARSE}\n[motion]\nmesh_cycles = 21\n"
+    file = tmp_path / "hub.toml"
+    file.write_text(text)
+    found = simulate_train(load_train(file))["transmission_error"].values[:420]
+    assert np.ptp(found[:, 0]) > 1e-5
+    for mesh in (1, 2):
+        assert found[:, mesh] == pytest.approx(np.roll(found[:, 0], 140 * mesh), abs=1e-9 * np.ptp(found[:, 0]))
+
+
+@pytest.mark.parametrize("errors", [of_each_tooth, slope_and_form])
+def test_an_idler_with_a_hardly_loaded_second_mate_has_the_errors_of_its_pair(tmp_path, errors):
+    """Identity of the first mesh with the pair under its torque, which is so small that the idler's own elements do not
+    matter; and exact: on its other flanks the idler is true but for its pitches."""
+    gears = gear_text(20, 2.0), gear_text(21, 2.0)
+    rest = f"[accuracy]\n{COARSE}\n[motion]\nmesh_cycles = 21\n"
+    own = mate("one", *gears, 0.0)
+    pair = own.replace("stages.one", "gears").replace('direction = "0.0 deg"', "")
+    (tmp_path / "pair.toml").write_text(
+        f'{pair}{errors("flank_errors.wheel", tmp_path)}[load]\nwheel_torque = "{1e-5 + 1e-6 * 21 / 30!r} N m"\n{rest}'
+    )
+    expected = simulate(load_scene(tmp_path / "pair.toml"))["transmission_error"].values
+    loads = '{ on = "one.wheel", torque = "1e-5 N m" }, { on = "two.wheel", torque = "1e-6 N m" }'
+    own += errors("stages.one.flank_errors.wheel", tmp_path) + mate("two", '"one.wheel"', gear_text(30, 2.0), 70.0)
+    (tmp_path / "train.toml").write_text(f"{own}[load]\ntorques = [{loads}]\n{rest}")
+    train = load_train(tmp_path / "train.toml")
+    found = simulate_train(train)["transmission_error"].values[: len(expected)]
+    assert found[:, 0] == pytest.approx(expected, abs=1e-8 * np.ptp(expected))
+    second = train.meshes[1].scene.flank_errors.pinion
+    assert second == GearErrors(pitch=second.pitch, first=second.first)
+
+
+@pytest.mark.parametrize("number", [0, 1], ids=["pinion", "wheel"])
+def test_counting_from_another_tooth_turns_all_deviations_round(number):
+    """Identity at every tooth, with helices and waves, of the driving and of the driven gear: but for pitches, whose
+    sum begins at one tooth, tooth t is what tooth t + 5 was."""
+    pair = two_stages().meshes[0].pair
+    side = pair.sides[number]
+    teeth = side.gear.tooth_count
+    lists = {name: tuple(np.sin(k * np.arange(teeth)).tolist()) for k, name in enumerate(LISTS[1:], start=1)}
+    own = GearErrors(**lists, waviness=Waviness(amplitude=0.002, waves=37, phase=0.4))
+
+    def amounts(of_gear: GearErrors) -> np.ndarray:
+        errors = FlankErrors(**{GEARS[number]: of_gear})
+        return _amounts(flank_deviations(errors, pair, (0.0, 0.0))[number], side)
+
+    found = amounts(counted_from(own, 5, teeth, side.turn))
+    assert found == pytest.approx(np.roll(amounts(own), -5, axis=0), abs=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("teeth", "said"),
+    [("30", ""), ("34", "begins elsewhere with another mate"), ("30 again", "flank errors in two stages")],
+)
+def test_profiles_of_flanks_that_two_mates_load_are_said_once(teeth, said):
+    """A slope goes from the start of the active profile, which two mates have to have in common; the tooth that the
+    second one meets first is a quarter of a turn on. Pitches may be said in the other stage."""
+    slopes = ", ".join(f'"{each} um"' for each in (*range(19), 0))
+    errors = f"flank_errors.pinion.profile_slope = [{slopes}]\n"
+    text = mate("one", gear_text(20, 2.0), gear_text(30, 2.0), 0.0, more=errors)
+    pitches = "flank_errors.pinion.pitch = [" + '"1 um", "-1 um", ' * 10 + "]\n"
+    again = errors if "again" in teeth else pitches
+    text += mate("two", '"one.pinion"', gear_text(int(teeth[:2]), 2.0), 90.0, more=again)
+    loads = ", ".join(f'{{ on = "{name}.wheel", torque = "100 N m" }}' for name in ("one", "two"))
+    text += f"[load]\ntorques = [{loads}]\n"
+    if said:
+        with pytest.raises(SceneError, match=said):
+            train_from_text(text)
+        return
+    first, second = (mesh.scene.flank_errors.pinion for mesh in train_from_text(text).meshes)
+    assert [round(1e3 * each) for each in first.profile_slope] == [*range(19), 0]
+    assert [round(1e3 * each) for each in second.profile_slope] == [*range(15, 19), 0, *range(15)]
+    assert (first.pitch, first.first, second.first) == (second.pitch, 5, 0)
+
+
 @pytest.mark.parametrize(
     ("one", "two", "said"),
     [
         ("wheel = {0}", "pinion = {0}", "runs out in two stages"),
         ('wheel = {{ wobble = "9 um" }}', "", "wobbles, which is not yet computed"),
-        ("flank_errors.wheel.profile_slope", "", "flank errors that are not yet computed there"),
-        ("flank_errors.tolerance_class", "", "flank errors that are not yet computed there"),
+        ("flank_errors.tolerance_class", "", "drawn, which is not yet computed there"),
         ("flank_errors.wheel.pitch", "flank_errors.pinion.pitch", "flank errors in two stages"),
     ],
 )
