@@ -136,4 +136,4 @@ def test_a_train_without_meaning_has_the_exit_code_of_a_pair(scene, capsys):
     scene.write_text(scene.read_text() + '[bearings]\nstiffness = "50 N/mm"\n')
     out = scene.parent / "out"
     assert main(["run", str(scene), "-o", str(out), "-q", "--no-pictures"]) == 4
-    assert capsys.readouterr().err.startswith(f"{out / 'run.nc'}: first: the result has no meaning")
+    assert capsys.readouterr().err.startswith(f"{out / 'run.nc'}: first; second: the result has no meaning")

@@ -23,6 +23,7 @@ SHAFT = {"torsional_stiffness": "0.203e9 N mm/rad"}
 # What a field stands instead of: it cannot be beside these.
 INSTEAD = {
     ("motion", "pinion_speed"): ["mesh_frequency"],
+    ("wheel_points", "angles"): ["count"],
     **{("load", name): ["wheel_torque"] for name in ("pinion_torque", "power")},
     **{(*path, "density"): [*LUMPED] for path in (("inertia",), ("inertia", "pinion"), ("inertia", "wheel"))},
     **{("damping", name): [*RAYLEIGH, "pinion", "wheel"] for name in ("ratio", "ratios")},
@@ -32,6 +33,7 @@ INSTEAD = {
         for gear in ((), ("pinion",), ("wheel",))
     },
 }
+POINTS = {"count": 8, "radial_stiffness": "2e5 N/mm", "tangential_stiffness": "2e5 N/mm"}
 SUPPORT = dict.fromkeys(("stiffness", "stiffness_x", "stiffness_y"), "0.155e6 N/mm")
 # Units of every kind of quantity that a scene has, by what `units` calls it.
 UNITS = {
@@ -175,6 +177,13 @@ def plane_scene() -> dict[str, Any]:
     return tree
 
 
+def plane_scene_on_points() -> dict[str, Any]:
+    tree = plane_scene()
+    for path in (("coast_flanks",), ("output",), ("accuracy", "elastic_teeth")):
+        tree = changed(tree, path, ABSENT)
+    return tree | {"wheel_points": POINTS}
+
+
 def plane_scene_with_webs() -> dict[str, Any]:
     tree = plane_scene()
     for gear, rim, hub in (("pinion", "50 mm", "36 mm"), ("wheel", "80 mm", "50 mm")):
@@ -187,6 +196,8 @@ def scene_with(path: tuple[str, ...], literal: str | None, name: str | None = No
     under another `name` if given."""
     if "cutter" in path:
         tree = tomllib.loads(RING.read_text(encoding="utf-8"))
+    if path[0] == "wheel_points":
+        tree = plane_scene_on_points()
     tree = tree or (whole_scene() if "web" not in path else plane_scene_with_webs())
     for other in INSTEAD.get(path, ()):
         tree = changed(tree, (*path[:-1], other), ABSENT)
