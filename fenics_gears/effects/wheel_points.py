@@ -63,6 +63,8 @@ def points_hold_a_wheel(tree: Tree) -> Broken:
     if section is None:
         return
     yield from only_teeth_that_differ(tree, SECTION)
+    if not {"count", "angles"} & set(section):
+        yield (SECTION, "count"), f"is missing. Allowed: a whole number from 2 to {MOST}, such as 12; or angles."
     if value_at(tree, "gears", "wheel", "support") is not None:
         message = f"cannot be combined with [{SECTION}], which says what holds the wheel. Leave one of the two out."
         yield ("gears", "wheel", "support"), message

@@ -53,6 +53,7 @@ def test_what_bolts_store_is_in_the_account_of_energy():
 @pytest.mark.parametrize(
     "points, more, words",
     [
+        ("", "", "wheel_points.count\n    is missing"),
         ("count = 1", "", "from 2 up to 200|from 2 to 200"),
         ('angles = ["10 deg"]', "", "a list of quantities"),
         ('angles = ["10 deg", "90 deg", "-270 deg"]', "", "has a point twice"),
