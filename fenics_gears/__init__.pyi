@@ -23,6 +23,7 @@ from fenics_gears.geometry.gear import Gear as Gear
 from fenics_gears.geometry.gear_data import RACKS as RACKS
 from fenics_gears.geometry.gear_data import USUAL_BORE as USUAL_BORE
 from fenics_gears.geometry.gear_data import Material as Material
+from fenics_gears.geometry.involute import centre_distance_of_shifts as centre_distance_of_shifts
 from fenics_gears.geometry.involute import inverse_involute as inverse_involute
 from fenics_gears.geometry.involute import involute_function as involute_function
 from fenics_gears.geometry.involute import sum_of_profile_shifts as sum_of_profile_shifts

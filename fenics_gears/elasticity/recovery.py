@@ -136,8 +136,7 @@ class GearRecovery:
         """`ring.ring_work` of forces on the cuts, over the face by those motions of the cuts that they cause."""
         link = self._link
         if self.sector.sweep is not None:
-            loads = np.hstack([each / np.linalg.norm(each) for each in (responding, loaded)])
-            motions = cut_motions(link, loads, self.gear.tooth_count)
+            motions = cut_motions(link, np.hstack([responding, loaded]), self.gear.tooth_count)
             link = over_motions(link, motions)
             responding = loads_over_motions(responding, motions)
             loaded = loads_over_motions(loaded, motions)

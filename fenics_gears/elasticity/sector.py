@@ -65,11 +65,6 @@ class Sector:
         """The section's nodes (k,) on cuts and hub."""
         return np.unique(np.concatenate([*self.cuts, self.hub]) % len(self.section.points))
 
-    def place(self, nodes: np.ndarray) -> np.ndarray:
-        """X, Y, z (k, 3) of nodes (k,)."""
-        height, number = np.divmod(nodes, len(self.section.points))
-        return np.column_stack([self.section.points[number], self.heights[height]])
-
     def flank_nodes(self, side: str) -> np.ndarray:
         """Nodes (heights f,) of the "flank" or the "coast" flank by height and radius, as the compliance has them."""
         return self._swept(side)

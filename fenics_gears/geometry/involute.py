@@ -33,6 +33,21 @@ def sum_of_profile_shifts(teeth: int, operating_angle: float, transverse_angle: 
     return float(0.5 * teeth * swept / np.tan(normal_angle))
 
 
+def centre_distance_of_shifts(
+    teeth: int, shifts: float, module: float, normal_angle: float, helix_angle: float
+) -> float:
+    """Centre distance (mm) at which both profile shifts leave no backlash (ISO 21771). `teeth`, `shifts`: sums of both
+    gears; normal module, mm; angles in rad.
+
+    >>> round(centre_distance_of_shifts(40, 0.283, 2.0, np.radians(20.0), 0.0), 2)
+    40.54
+    """
+    transverse = np.arctan(np.tan(normal_angle) / np.cos(helix_angle))
+    operating = inverse_involute(involute_function(np.tan(transverse)) + 2.0 * shifts * np.tan(normal_angle) / teeth)
+    bases = 0.5 * module * teeth * np.cos(transverse) / np.cos(helix_angle)
+    return float(abs(bases) * np.hypot(1.0, operating))
+
+
 def inverse_involute(polar_angle: float) -> float:
     """Roll angle (rad) whose involute function is ``polar_angle`` (rad, not negative).
 

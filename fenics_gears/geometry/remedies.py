@@ -3,13 +3,13 @@ the amount."""
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
-from math import atan, cos, hypot, tan
+from math import cos
 
 from fenics_gears.errors import GeometryError
 
 from .gear_checks import Remedy
 from .gear_data import GearPairData
-from .involute import inverse_involute
+from .involute import centre_distance_of_shifts
 
 # Changes that are tried, in modules; between the last that does not help and the first that does it is halved so often.
 STEPS = (0.02, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.75, 0.9, 1.1, 1.3, 1.6, 2.0, 2.5, 3.0, 4.0, 6.0, 9.0, 14.0, 20.0)
@@ -110,17 +110,10 @@ def _with_shift(data: GearPairData, gear: str, name: str, step: float) -> GearPa
     linear = data.centre_distance + wider
     if linear <= 0.0:
         return replace(shifted, centre_distance=linear)
-    return replace(shifted, centre_distance=max(linear, _without_backlash(shifted)))
-
-
-def _without_backlash(data: GearPairData) -> float:
-    """Centre distance (mm) of two external gears at which both flanks of a tooth touch (ISO 21771)."""
     teeth = data.pinion.teeth + data.wheel.teeth
-    shifts = data.pinion.profile_shift + data.wheel.profile_shift
-    angle = atan(tan(data.pressure_angle) / cos(data.helix_angle))
-    working = tan(angle) - angle + 2.0 * shifts * tan(data.pressure_angle) / teeth
-    bases = 0.5 * data.module * teeth * cos(angle) / cos(data.helix_angle)
-    return bases * hypot(1.0, inverse_involute(max(working, 0.0)))
+    shifts = shifted.pinion.profile_shift + shifted.wheel.profile_shift
+    least = centre_distance_of_shifts(teeth, shifts, data.module, data.pressure_angle, data.helix_angle)
+    return replace(shifted, centre_distance=max(linear, least))
 
 
 def _with_teeth(data: GearPairData, gear: str, more: int) -> GearPairData:

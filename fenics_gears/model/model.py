@@ -23,9 +23,8 @@ from fenics_gears.effects import check_files, common_period, from_effects
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.pair import GearPair, gear_pair
 from fenics_gears.geometry.pair_checks import design_warnings
-from fenics_gears.inputs.section import allowed_in
 from fenics_gears.scene.data import HUNTING_TOOTH_PERIOD, LAST_CYCLES, Scene
-from fenics_gears.scene.schema import WORDS, MotionText
+from fenics_gears.scene.schema import MOST_CYCLES, WORDS
 
 from .drivetrain import drivetrain, mesh_stiffness
 from .modification import check_bodies, corner, removals, rim_warnings
@@ -208,12 +207,11 @@ class Model:
         if self.of_slowest not in (None, 1):
             words = ", counted in the slowest mesh,"
         needed = ceil(period / (self.of_slowest or 1))
-        most = allowed_in(MotionText, "mesh_cycles").highest
         remedy = f"motion.mesh_cycles = {needed}{words} goes through all"
-        if needed > most:
+        if needed > MOST_CYCLES:
             remedy = (
-                f"no run goes through all, for motion.mesh_cycles may be {most:.7g}; to see the largest numbers, leave"
-                " [eccentricity] and [flank_errors] of all gears but one out: it repeats after a turn"
+                f"no run goes through all, for motion.mesh_cycles may be {MOST_CYCLES}; to see the largest numbers,"
+                " leave [eccentricity] and [flank_errors] of all gears but one out: it repeats after a turn"
             )
         return [
             f"only {run} of the {period} mesh cycles of the common period are run: cycles are not alike, and all"

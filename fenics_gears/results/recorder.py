@@ -174,11 +174,10 @@ class Recorder:
         kept = {
             name: self._in_shape(evaluated[name], dims) for name, (dims, _) in self.stored.items() if name in evaluated
         }
-        self._room.put(
-            self.steps, kept | {f"{WATCHED}{name}": of for name, of in watched.items() if name not in self.stored}
-        )
+        beside = {name: of for name, of in watched.items() if name not in self.stored}
+        self._room.put(self.steps, kept | {f"{WATCHED}{name}": of for name, of in beside.items()})
         # Last of all: a march that is interrupted before this line evaluates these steps again.
-        self._watched = tuple(name for name in watched if name not in self.stored)
+        self._watched = tuple(beside)
         del self._waiting[0]
         self._last = block.between(len(block) - 1, len(block))
         self._worked = worked

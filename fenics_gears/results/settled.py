@@ -12,9 +12,8 @@ import numpy as np
 import xarray as xr
 
 from fenics_gears.effects import common_period
-from fenics_gears.inputs.section import allowed_in
 from fenics_gears.model.model import Model
-from fenics_gears.scene.schema import MotionText
+from fenics_gears.scene.schema import MOST_CYCLES
 
 if TYPE_CHECKING:
     from fenics_gears.dynamics.frequencies import Vibration
@@ -116,6 +115,6 @@ def _warning(slowest: Vibration, rate: float, left: float, needed: int | None, r
             " have it in them; [damping] lets it die down"
         )
     cycles = "" if needed is None else f"; motion.mesh_cycles = {needed} leaves {DIED_DOWN:.0%}"
-    if needed is not None and needed > allowed_in(MotionText, "mesh_cycles").highest:
+    if needed is not None and needed > MOST_CYCLES:
         cycles = "; no run is long enough for it to die down: raise the damping, by [damping]"
     return f"the start has not died down where the numbers begin: {100.0 * left:.3g}% of {mode} is left{cycles}"

@@ -64,6 +64,7 @@ class LoadText(Section):
 
 # Mesh cycles until every tooth has met every other: the least common multiple of the numbers of teeth.
 HUNTING_TOOTH_PERIOD = "hunting tooth period"
+MOST_CYCLES = 1_000_000
 # Recorded cycles where the scene does not give their number and all cycles are alike, or the result could not hold all.
 LAST_CYCLES = 2
 # Mesh frequency, Hz, of a scene that has no speed and needs none: its nominal time is 1 s a mesh cycle.
@@ -111,7 +112,7 @@ class MotionText(Section):
     )
     mesh_cycles: int | None = whole_number(
         1,
-        1_000_000,
+        MOST_CYCLES,
         30,
         meaning="number of mesh cycles of the run",
         otherwise='required with `[inertia]`, or `settling_time`; else 1, or `"hunting tooth period"` if cycles differ',

@@ -16,7 +16,7 @@ from ..mumps import schur_complement
 from ..ring import Parts, check_congruent, flank_free, turn_last
 from .coarse_cuts import cut_nodes, narrow_sweep, on_cut_nodes, root_pitch
 from .cut_motions import between_few_motions
-from .layers import Sweep, SweptWeb, swept_nodes
+from .layers import Sweep, swept_nodes
 from .swept_stiffness import ELEMENT, SectionForms, swept_stiffness
 
 
@@ -33,7 +33,6 @@ class SweptSector:
     stiffness: np.ndarray
     lower: np.ndarray
     profile: int
-    web: SweptWeb | None
     timings: dict
 
 
@@ -75,7 +74,7 @@ def _condensed(mesh: BodyMesh, sweep: Sweep, poissons_ratio: float, teeth: int, 
     condensed = schur_complement(stiffness, kept)
     turn_last(condensed, lower.size, rotation(2.0 * np.pi / teeth, 3))
     timings = {"time_compile": compiled - clock, "unknowns": len(free), "condensed_unknowns": len(kept)}
-    return SweptSector(condensed, lower, len(flanks[0]), sweep.web, timings)
+    return SweptSector(condensed, lower, len(flanks[0]), timings)
 
 
 def _widened(sector: SweptSector, narrow: Sweep, mesh: BodyMesh, sweep: Sweep, teeth: int) -> SweptSector:
@@ -96,7 +95,7 @@ def _widened(sector: SweptSector, narrow: Sweep, mesh: BodyMesh, sweep: Sweep, t
         "unknowns": round(grown * sector.timings["unknowns"]),
         "condensed_unknowns": len(stiffness),
     }
-    return SweptSector(stiffness, lower, sector.profile, None, timings)
+    return SweptSector(stiffness, lower, sector.profile, timings)
 
 
 def _dofs_by_height(flanks: int, profile: int, lower: np.ndarray, sweep: Sweep) -> list[np.ndarray]:

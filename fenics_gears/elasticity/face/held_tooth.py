@@ -36,9 +36,8 @@ def near_field(
     gear: Gear, mesh: BodyMesh, sweep: Sweep, poissons_ratio: float, rolls: np.ndarray, both: bool = False
 ) -> NearField:
     """Of a gear of module one, Young's modulus 1 MPa. `rolls` (n,), rad, of the section's flank nodes."""
-    tooth = _HeldTooth(gear, mesh, sweep.twist, poissons_ratio, rolls)
+    tooth = _HeldTooth(gear, mesh, sweep, poissons_ratio, rolls)
     thick = [float(each) for each in sweep.thicknesses]
-    tooth.take_motions(thick)
     of_flanks = [_joined(tooth, thick)]
     normals = [tooth.normals]
     if both:
@@ -57,14 +56,15 @@ def _reversed_heights(heights: int, nodes: int) -> np.ndarray:
 class _HeldTooth:
     """A tooth of a section, swept through some layers and held at its root."""
 
-    def __init__(self, gear: Gear, mesh: BodyMesh, twist: float, poissons_ratio: float, rolls: np.ndarray):
-        self._section, self._twist = SectionForms(mesh, poissons_ratio), twist
+    def __init__(self, gear: Gear, mesh: BodyMesh, sweep: Sweep, poissons_ratio: float, rolls: np.ndarray):
+        self._section = SectionForms(mesh, poissons_ratio)
+        self._twist = sweep.twist
         points = self._section.nodes.points
         free = gear.sign * np.linalg.norm(points, axis=1) > gear.root_radius - DEPTH
         for held in ("lower cut", "upper cut", "hub"):
             free[numbers_at(points, mesh.edge_nodes(held, ELEMENT.order))] = False
         flank = numbers_at(points, by_radius(mesh.edge_nodes("flank", ELEMENT.order)))
-        slope = -twist * gear.base_radius
+        slope = -sweep.twist * gear.base_radius
         transverse = np.column_stack([np.cos(rolls), -np.sin(rolls), np.full(len(rolls), slope)])
         self.normals = transverse / np.sqrt(1.0 + slope**2)
         own = (np.cumsum(free) - 1)[flank]
@@ -72,6 +72,7 @@ class _HeldTooth:
         # Those along the normals come last, as a LayerRun has them.
         order = np.concatenate([np.setdiff1d(np.arange(along.shape[1]), 3 * own), 3 * own])
         self._all = sparse.eye(3 * len(points), format="csr")[:, dofs_of(np.flatnonzero(free), 3)] @ along[:, order]
+        self._motions = self._section_motions(sweep.thicknesses.tolist())
         self._runs: dict[tuple[float, ...], LayerRun] = {}
         self._known: dict[tuple[float, ...], np.ndarray] = {}
 
@@ -92,9 +93,9 @@ class _HeldTooth:
         last = first + 2 * thin_layers(thick[layer]) + 1
         return self._known[thick][first * self.nodes : last * self.nodes]
 
-    def take_motions(self, thick: list[float]) -> None:
-        """From now on sections of a face of layers of some thicknesses move in the ways (3 n, r) in which forces along
-        the normals move those of few layers; last those along the normals themselves."""
+    def _section_motions(self, thick: list[float]) -> np.ndarray:
+        """Motions (3 n, r) of sections of a face of layers of some thicknesses: those in which forces along the normals
+        move few layers; last those along the normals themselves."""
         thickest = max(thick)
         thin = (thickest / thin_layers(thickest),) * THIN_LAYERS
         # From either end, so that the mirrored face has the mirrored motions.
@@ -103,7 +104,7 @@ class _HeldTooth:
         moved = np.hstack([self._moved(np.concatenate([[0.0], np.cumsum(each)]))[:others] for each in bodies])
         sizes, directions = eigh(moved @ moved.T)
         kept = directions[:, sizes > LEAST_MOTION**2 * sizes[-1]]
-        self._motions = np.hstack([self._all[:, :others] @ kept, self._all[:, others:].toarray()])
+        return np.hstack([self._all[:, :others] @ kept, self._all[:, others:].toarray()])
 
     def _moved(self, boundaries: np.ndarray) -> np.ndarray:
         """How sections move (3 n, k) under forces of one on each flank node at each height of some layers."""

@@ -6,6 +6,7 @@ S_FI)`` is the stiffness of the interfaces. For a gear of equal sectors that is 
 transform.
 """
 
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from hashlib import sha256
 from time import perf_counter
@@ -131,9 +132,8 @@ def _in_frame(rows: np.ndarray, angle: float) -> np.ndarray:
 def _blocks(gear: Gear, body: DividedBody, parts: list[_CondensedPart], tooth_offsets: int) -> dict[str, np.ndarray]:
     """Compliance blocks in the teeth's own frames, and how flank forces open the cracks, by name."""
     size = 2 * len(body.interface)
-    places = np.hstack([[np.repeat(part.dofs, len(part.dofs)), np.tile(part.dofs, len(part.dofs))] for part in parts])
-    joined = sparse.coo_matrix((np.concatenate([part.link.ravel() for part in parts]), places), shape=(size, size))
-    factor = Factor(joined.tocsr(), "the interfaces of a gear's teeth")
+    links = [part.link for part in parts]
+    factor = joined_factor(links, [part.dofs for part in parts], size, "the interfaces of a gear's teeth")
     blocks = {}
 
     def opened(by: int, at: int, motion: np.ndarray) -> None:
@@ -162,6 +162,14 @@ def _blocks(gear: Gear, body: DividedBody, parts: list[_CondensedPart], tooth_of
     finally:
         factor.close()
     return blocks
+
+
+def joined_factor(links: Sequence[np.ndarray], dofs: Sequence[np.ndarray], size: int, what: str) -> Factor:
+    """The factor of interfaces of so many dofs between parts, each of which has a stiffness (k, k) at some dofs (k,) of
+    them. `what`: for the message where it is not definite."""
+    places = np.hstack([[np.repeat(own, len(own)), np.tile(own, len(own))] for own in dofs])
+    entries = np.concatenate([link.ravel() for link in links])
+    return Factor(sparse.coo_matrix((entries, places), shape=(size, size)).tocsr(), what)
 
 
 def _add_openings(rows: np.ndarray, body: DividedBody, part: int, motion: np.ndarray, frame: np.ndarray) -> None:

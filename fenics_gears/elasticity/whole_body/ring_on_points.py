@@ -9,7 +9,6 @@ from math import floor, pi
 from time import perf_counter
 
 import numpy as np
-from scipy import sparse
 
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.gear_data import Material
@@ -21,10 +20,10 @@ from ..element_nodes import node_roll_angles
 from ..element_sizes import Discretisation
 from ..elements import element_named
 from ..gear_compliance import similar_inputs
-from ..mumps import Factor
-from ..ring import check_congruent, condensed_sector, flank_free, turn_last
+from ..ring import Parts, check_congruent, condensed_sector, flank_free, turn_last
 from ..sector_mesh import sector_mesh
 from .compliance import WholeBodyCompliance
+from .condensed import joined_factor
 
 # Of a mesh whose outer circle is neither held nor on springs all over.
 FREE = (0.0, 0.0)
@@ -108,10 +107,7 @@ def mean_motions(outer: np.ndarray) -> np.ndarray:
     return np.column_stack([radial.ravel(), tangential.ravel()]) / len(outer)
 
 
-Part = tuple[np.ndarray, np.ndarray, np.ndarray]
-
-
-def _part(stiffness: np.ndarray, means: np.ndarray, flank: int, springs: np.ndarray) -> Part:
+def _part(stiffness: np.ndarray, means: np.ndarray, flank: int, springs: np.ndarray) -> Parts:
     """A sector on its springs (2,), as of `ring.flank_free`, by its flank and the mean motions of its outer circle."""
     on_springs = stiffness.copy()
     inner = len(means)
@@ -121,16 +117,14 @@ def _part(stiffness: np.ndarray, means: np.ndarray, flank: int, springs: np.ndar
     return seen.T @ held @ seen, seen.T @ to_cuts, link
 
 
-def _joined(parts: list[Part], flank: int, offsets: int) -> tuple[np.ndarray, np.ndarray]:
+def _joined(parts: list[Parts], flank: int, offsets: int) -> tuple[np.ndarray, np.ndarray]:
     """Of a ring the compliance between flanks (teeth, offsets + 1, 2n, 2n), and the mean motions (teeth, teeth, 2, 2n)
     of the outer circles of all sectors by forces on the flank of each."""
     teeth = len(parts)
     cut = len(parts[0][2]) // 2
     dofs = [(np.arange(2 * cut) + tooth * cut) % (teeth * cut) for tooth in range(teeth)]
-    places = np.hstack([[np.repeat(own, 2 * cut), np.tile(own, 2 * cut)] for own in dofs])
-    links = np.concatenate([link.ravel() for _, _, link in parts])
     size = teeth * cut
-    factor = Factor(sparse.coo_matrix((links, places), shape=(size, size)).tocsr(), "the cuts of a ring on points")
+    factor = joined_factor([link for _, _, link in parts], dofs, size, "the cuts of a ring on points")
     blocks = np.empty((teeth, offsets + 1, flank, flank))
     moved = np.empty((teeth, teeth, 2, flank))
     try:

@@ -2,9 +2,9 @@
 
 from dataclasses import replace
 from functools import partial
-from math import acos, atan, cos, hypot, isclose, tan
+from math import acos, atan, cos, isclose, tan
 
-from fenics_gears import inverse_involute, involute_function, sum_of_profile_shifts
+from fenics_gears import centre_distance_of_shifts, sum_of_profile_shifts
 
 from .attributes import Reading, every, first, given, missing, needed, places
 from .circles import ROUNDED, STANDARD, check_reference_diameter, cutter, gear_section
@@ -165,11 +165,9 @@ def _distance(stage: Stage) -> Value | None:
 def distance_of_shifts(beta: float, module: Value, angle: Value, *teeth_and_shifts: Value) -> Value:
     """The centre distance at which both profile shifts leave no backlash (ISO 21771)."""
     teeth, shifts = (sum(each.number for each in both) for both in (teeth_and_shifts[:2], teeth_and_shifts[2:]))
-    transverse = transverse_angle(angle.number, beta)
-    operating = inverse_involute(involute_function(tan(transverse)) + 2.0 * shifts * tan(angle.number) / teeth)
-    bases = 0.5 * module.number * teeth * cos(transverse) / cos(beta)
+    distance = centre_distance_of_shifts(teeth, shifts, module.number, angle.number, beta)
     why = "no center_distance; from teeth, module and both profile shifts, without backlash"
-    return computed(abs(bases) * hypot(1.0, operating), 1.0, "mm", why, assumed=True)
+    return computed(distance, 1.0, "mm", why, assumed=True)
 
 
 def _stated_shift(part: GearParts, module: Value | None) -> Value | None:
