@@ -41,9 +41,9 @@ def ends_of(face: Face, bodies: tuple[FaceCompliance, FaceCompliance]) -> np.nda
 
 
 @njit(cache=True)
-def add_ends(found, rows, fine, group, nodes):
+def add_ends(found, rows, fine, group, nodes, place):
     """Add what free ends give along the normals between nodes of a group, which are rows and columns, to `found`
-    (e, m, r), mm/N."""
+    (e, m, r), mm/N, where those of the group begin at a `place`."""
     number, begin = rows.groups[SLICE, group], rows.groups[BEGIN, group]
     ends = fine.ends[number, rows.flanks[group]]
     for end in ends:
@@ -51,7 +51,7 @@ def add_ends(found, rows, fine, group, nodes):
             for row, node in enumerate(nodes):
                 for other in range(begin, end_of(rows, group)):
                     apart = rows.offsets[node] - rows.offsets[other]
-                    found[0, other, row] += fine.shares[number] * displacement_beside(end, apart)
+                    found[0, place + other - begin, row] += fine.shares[number] * displacement_beside(end, apart)
 
 
 @njit(cache=True)

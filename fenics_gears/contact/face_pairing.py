@@ -23,6 +23,7 @@ from fenics_gears.errors import ComputationError
 from fenics_gears.geometry.side import Side
 
 from .addresses import form_rows
+from .between_flank_nodes import between_flank_nodes
 from .compliance_product import directions
 from .face import Face
 from .face_ends import ends_of
@@ -97,7 +98,11 @@ class FacePairing:
         together = [(one, own) for earlier, own in zip(before, now) for one in (own, earlier) if one is not None]
         for gear, (body, sections) in enumerate(self._bodies):
             self._find(body, len(sections) // 2, [(one.on_gears[gear], two.on_gears[gear]) for one, two in together])
-        return [self._response(*each) for each in zip(passages, now, before)]
+        between: list[tuple[np.ndarray, ...]] = [()] * len(passages)
+        if passages and passages[0].previous is None:
+            parts = enumerate(self._bodies)
+            between = list(zip(*(between_flank_nodes(*body, self._shares, now, gear) for gear, body in parts)))
+        return [self._response(*each) for each in zip(passages, now, before, between)]
 
     def _find(self, body: SliceCompliance, sections: int, sides: list[tuple[np.ndarray, np.ndarray]]) -> None:
         """Have the body's compliance between the groups of sides, each two of which are there together."""
@@ -112,10 +117,12 @@ class FacePairing:
         apart, own, other = np.unravel_index(asked, body.values.shape[:3])
         body.find(apart - offsets, own, other)
 
-    def _response(self, passage: Passage, now: SectionNodes, before: SectionNodes | None) -> Response:
+    def _response(
+        self, passage: Passage, now: SectionNodes, before: SectionNodes | None, between: Sequence[np.ndarray]
+    ) -> Response:
         pairs: Sequence[FacePair] = passage.pairs
         layers = np.zeros(self.face.slices)
-        compliance = self._rows(now, now, layers, self._ends)
+        compliance = self._rows(now, now, layers, self._ends, between=between)
         earlier = None
         if before is not None:
             # The tangents as they were before. Reciprocal, so that rows are those of nodes before, as the march reads
@@ -131,13 +138,19 @@ class FacePairing:
         return Response(compliance, earlier, dependent)
 
     def _rows(
-        self, rows: SectionNodes, columns: SectionNodes, layers: np.ndarray, ends: np.ndarray, by_columns: bool = False
+        self,
+        rows: SectionNodes,
+        columns: SectionNodes,
+        layers: np.ndarray,
+        ends: np.ndarray,
+        by_columns: bool = False,
+        between: Sequence[np.ndarray] = (),
     ) -> FormedRows:
         same = rows.groups[SLICE][:, None] == columns.groups[SLICE]
         for fine, own, other in zip(self._fine, rows.on_gears, columns.on_gears):
             _check_sections(fine, own[TOOTH][:, None] - other[TOOTH], (rows.flanks[:, None], columns.flanks), same)
         bodies = [(body.values, sections) for body, sections in self._bodies]
-        return FormedRows.of(bodies, rows, columns, Fine(*self._fine, self._shares, layers, ends), by_columns)
+        return FormedRows.of(bodies, rows, columns, Fine(*self._fine, self._shares, layers, ends), by_columns, between)
 
     def _nodes_of(self, pairs: Sequence[FacePair], tangential: bool) -> SectionNodes:
         """The pairs' nodes, along normal and tangent."""
@@ -152,10 +165,13 @@ class FacePairing:
             # Groups always have nodes.
             lowest = np.minimum.reduceat(first[gear], begins) if len(pairs) else counts
             under = np.maximum.reduceat(first[gear], begins) + widths - lowest if len(pairs) else counts
-            place = np.cumsum(under) - under
+            section = flanks * self.face.slices + slices
+            # One section's after the other's, as they are read (`contact.between_flank_nodes`).
+            order = np.argsort(section, kind="stable")
+            place = np.empty_like(under)
+            place[order] = np.cumsum(under[order]) - under[order]
             first[gear] += np.repeat(place - lowest, counts)
             teeth = [each.teeth[gear] for each in places]
-            section = flanks * self.face.slices + slices
             plane_node = count * (flanks + self._flanks * self._kinds[slices]) + lowest
             on_gears[gear] = teeth, under, place, section, lowest, plane_node
         axes = np.stack([contact_axes(self.face, side, pairs, tangential) for side in self._sides])

@@ -44,19 +44,33 @@ LEAST_PIVOT = 1e-6
 LOWER, TRANSPOSED = ord("L"), ord("T")
 INT = 4
 # In the table of Factors after what `addresses` names: slip of what is factored with friction, room for `lines`; and
-# LAPACK's functions.
-SLIP, LINES, POTRF, POTRS, GETRF, GETRS = range(PRESENT + 1, PRESENT + 7)
+# LAPACK's functions. Then, where there are no rows (`contact.closed_compliance`): the address of the table of their
+# FormedRows, else 0, and the function that forms what is between closed nodes; this compliance by slots, the node of
+# each slot, and how many slots there are, followed by the slot of each node or -1.
+SLIP, LINES, POTRF, POTRS, GETRF, GETRS, SOURCE, FORMER, CLOSED, MEMBERS, SLOTS = range(PRESENT + 1, PRESENT + 12)
+END = SLOTS + 1
 
 
 class Factors:
     """Room for factors between some of m forces of n nodes, without and with friction, which takes memory as far as it
-    is used; `table` is for compiled code."""
+    is used; `table` is for compiled code. `source`: address of the table of a FormedRows that is solved without its
+    rows, else 0."""
 
-    def __init__(self, nodes: int, forces: int):
+    def __init__(self, nodes: int, forces: int, source: int = 0):
         rooms = [(pages(size, size), np.zeros(size + 1, dtype=np.int64)) for size in (nodes, forces)]
-        self.arrays = *rooms[0], *rooms[1], np.zeros(forces, dtype=np.int32), np.zeros(forces), pages(forces, forces)
+        friction = np.zeros(forces, dtype=np.int32), np.zeros(forces), pages(forces, forces)
+        slots = np.full(nodes + 1, -1)
+        slots[0] = 0
+        closed = (pages(nodes, nodes), np.zeros(nodes, dtype=np.int64), slots) if source else ()
+        self.arrays = *rooms[0], *rooms[1], *friction, *closed
         addresses = [array.ctypes.data for array in self.arrays]
-        self.table = np.array([*addresses[:-2], -1, marching.ctypes.data, *addresses[-2:], *_lapack()])
+        former = 0
+        if source:
+            from .closed_compliance import closed_former
+
+            former = closed_former().address
+        numbers = [*addresses[:5], -1, marching.ctypes.data, *addresses[5:7], *_lapack(), source, former]
+        self.table = np.array([*numbers, *(addresses[7:] or [0, 0, 0])])
 
 
 @cache
@@ -106,7 +120,7 @@ def factored_solver():
 def _solve(address):
     """Returns 1, or 0 where the compliance is not safely regular or the drivetrain is loose."""
     at = carray(to_integer(address), 14)
-    m, k, size, slipping, table = at[1], at[2], at[3], at[4], carray(to_integer(at[0]), GETRS + 1)
+    m, k, size, slipping, table = at[1], at[2], at[3], at[4], carray(to_integer(at[0]), END)
     compliance = carray(to_number(at[5]), (m, m))
     system = System(
         compliance,
@@ -118,7 +132,8 @@ def _solve(address):
         carray(to_number(at[11]), size),
         1.0 / compliance[0, 0],
     )
-    form_rows(at[13], system.rows[: slipping if slipping else size])
+    if table[SOURCE] == 0:
+        form_rows(at[13], system.rows[: slipping if slipping else size])
     result = carray(to_number(at[12]), m + k)
     return _solve_slipping(system, table, result) if slipping else _solve_frictionless(system, table, result)
 
@@ -188,6 +203,9 @@ def _factored(table, rows, slip, k):
 def _factor(factored, system):
     """Put the factors of a system into place; returns whether they are safely regular."""
     compliance, slip, rows, matrix = system.compliance, system.slip, system.rows, factored.matrix
+    if factored.table[SOURCE] != 0:
+        _put_closed(factored, len(compliance), system.unit)
+        return _eliminate(factored, False)
     n = len(compliance) // 2
     for a in range(len(rows)):
         row = compliance[rows[a]]
@@ -195,6 +213,17 @@ def _factor(factored, system):
         if len(slip):
             add_slip(matrix[a], row[n:], rows, slip, system.unit)
     return _eliminate(factored, len(slip) > 0)
+
+
+@njit(cache=True)
+def _put_closed(factored, n, unit):
+    """Put what is between closed nodes into the matrix, of n nodes of which no rows are there."""
+    table, rows, matrix = factored.table, factored.rows, factored.matrix
+    call(table[FORMER], (table[SOURCE], table.ctypes.data, rows.ctypes.data, len(rows)))
+    slots, known = carray(to_integer(table[SLOTS]), n + 1)[1:][rows], carray(to_number(table[CLOSED]), (n, n))
+    for a in range(len(rows)):
+        for b in range(a, len(rows)):
+            matrix[a, b] = unit * known[max(slots[a], slots[b]), min(slots[a], slots[b])]
 
 
 @njit(cache=True)

@@ -137,9 +137,10 @@ def weights_of(side, gear, group):
 
 
 @njit(cache=True)
-def add_fine(found, rows, columns, fine, group, nodes):
+def add_fine(found, of, group, nodes, begins):
     """Add what fine sections give of the compliance of some contact nodes of a group to `found` (e, m, r), mm/N; r as
-    of `weighted`."""
+    of `weighted`. `of`: rows, columns and the fine sections; `begins` (Q,): where there the columns' groups begin."""
+    rows, columns, fine = of
     number, own = rows.groups[SLICE, group], nodes - rows.groups[BEGIN, group]
     for gear in range(2):
         blocks = fine.second if gear else fine.first
@@ -156,7 +157,7 @@ def add_fine(found, rows, columns, fine, group, nodes):
             add_section(lines, ends, block, (low, start), axes, across)
             displaced = weighted(lines, weights)
             for e in range(len(across)):
-                add_seen(found[e, columns.groups[BEGIN, q] : end_of(columns, q)], loaded, firsts - start, displaced[e])
+                add_seen(found[e, begins[q] : begins[q] + len(loaded)], loaded, firsts - start, displaced[e])
 
 
 @njit(cache=True)

@@ -31,22 +31,18 @@ from .addresses import (
     to_integer,
     to_number,
 )
+from .between_flank_nodes import displaced_by
 from .face_ends import add_ends
 from .fine_sections import (
     BEGIN,
     IN_SLICE,
-    NODE,
     OF_SLICE,
     PLACE,
-    PLANE_NODE,
-    SECTION,
     SLICE,
-    TOOTH,
     WIDTH,
     Fine,
     SectionNodes,
     add_fine,
-    add_section,
     add_seen,
     end_of,
     padded,
@@ -73,7 +69,7 @@ class _Source(NamedTuple):
 # In compiled code it is a table: first the addresses that `addresses.form_rows`, `addresses.solver_of` and
 # `addresses.displacer_of` read, 0 where there is none; then address and shape of each array, the last being the
 # flags that say which rows are formed.
-ARRAYS = 35
+ARRAYS = 39
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,15 +96,18 @@ class FormedRows:
         columns: SectionNodes,
         fine: Fine,
         by_columns: bool = False,
+        between: Sequence[np.ndarray] = (),
     ) -> FormedRows:
         """`bodies`: of pinion and wheel `blocks` (k, s, s, n, n, 9), mm/N, between flank nodes in sections, by
         components, those of tooth i under forces on tooth j being number (k - 1)/2 + i - j, and `sections`
-        (k, n', n', 4), mm per N/mm. `by_columns`: rows here are the compliance's columns."""
+        (k, n', n', 4), mm per N/mm. `by_columns`: rows here are the compliance's columns. `between`: of both
+        bodies M (`contact.between_flank_nodes`), where all is solved by these."""
         blocks, sections = zip(*bodies)
         n, m = (side.axes.shape[2] * len(side.group) for side in (rows, columns))
         matrix, formed = pages(n, m), np.zeros(len(rows.group), dtype=bool)
         arrays = [np.ascontiguousarray(array) for array in (*rows, *columns, *fine, *blocks, *sections)]
-        arrays += [matrix, formed]
+        in_slices = pages(n, int(rows.groups[OF_SLICE].max(initial=1))) if between else np.empty((0, 0))
+        arrays += [matrix, *(between or 2 * [in_slices]), in_slices, np.zeros(len(in_slices), dtype=bool), formed]
         table = np.zeros((1 + ARRAYS, 7), dtype=np.int64)
         for row, array in zip(table[1:], arrays):
             row[0], row[1 : 1 + array.ndim] = array.ctypes.data, array.shape
@@ -117,8 +116,12 @@ class FormedRows:
         if rows is columns:
             from .factored_compliance import Factors, factored_solver
 
-            factors = Factors(len(rows.group), n)
+            factors = Factors(len(rows.group), n, table.ctypes.data if between else 0)
             table[0, 1:3] = factored_solver().address, factors.table.ctypes.data
+        if between:
+            from .closed_compliance import displacer
+
+            table[0, 3] = displacer().address
         return cls(matrix, formed, by_columns, table, arrays, factors)
 
     @property
@@ -133,7 +136,7 @@ class FormedRows:
 
 
 @njit(cache=True)
-def _arrays(address):
+def arrays_at(address):
     return carray(to_integer(address), (1 + ARRAYS, 7))[1:]
 
 
@@ -146,7 +149,7 @@ def row_former():
 
 def _form_rows(address, nodes, count):
     """Returns 1; what is raised in a C function is printed and makes it return 0."""
-    table = _arrays(address)
+    table = arrays_at(address)
     formed = carray(to_flag(table[-1, 0]), table[-1, 1])
     asked = carray(to_integer(nodes), count)
     missing = asked[~formed[asked]]
@@ -167,7 +170,7 @@ def _form_rows(address, nodes, count):
 
 
 @njit(cache=True)
-def _side(table):
+def side_of(table):
     return SectionNodes(
         integer_vector(table[0]), number_vector(table[1]), integer_matrix(table[2]), integer_matrix(table[3]),
         carray(to_integer(table[4, 0]), (2, 6, table[4, 3])), number_array_3(table[5]),
@@ -177,24 +180,28 @@ def _side(table):
 
 
 @njit(cache=True)
-def _source(table):
-    fine = Fine(
+def fine_of(table):
+    return Fine(
         number_array_6(table[24]), number_array_6(table[25]), number_vector(table[26]), number_vector(table[27]),
         number_array_4(table[28]),
     )  # fmt: skip
+
+
+@njit(cache=True)
+def _source(table):
     blocks, sections = (
         (number_array_6(table[29]), number_array_6(table[30])),
         (number_array_4(table[31]), number_array_4(table[32])),
     )
     matrix = carray(to_number(table[33, 0]), (table[33, 1], table[33, 2]))
-    return _Source(_side(table), _side(table[12:]), fine, blocks, sections, matrix)
+    return _Source(side_of(table), side_of(table[12:]), fine_of(table), blocks, sections, matrix)
 
 
 @njit(cache=True)
 def uncertain_slices(address, softest, least):
     """Slices (S,) of the rows of a FormedRows in which nodes may depend on each other: those that have a group which is
     not `surely_independent`."""
-    source = _source(_arrays(address))
+    source = _source(arrays_at(address))
     found = np.zeros(len(source.fine.shares), dtype=np.bool_)
     for group in range(source.rows.groups.shape[1]):
         number = source.rows.groups[SLICE, group]
@@ -206,7 +213,7 @@ def uncertain_slices(address, softest, least):
 @njit(cache=True)
 def fine_section(address, number):
     """What fine sections give in a slice between the contact nodes (d, n, d, n) of a FormedRows, mm/N."""
-    source = _source(_arrays(address))
+    source = _source(arrays_at(address))
     rows, kinds = source.rows, source.rows.axes.shape[2]
     groups = np.flatnonzero(rows.groups[SLICE] == number)
     n = rows.groups[OF_SLICE, groups[0]] if len(groups) else 0
@@ -214,13 +221,11 @@ def fine_section(address, number):
     for p in groups:
         begin, place = rows.groups[BEGIN, p], rows.groups[IN_SLICE, p]
         count = end_of(rows, p) - begin
-        found = np.zeros((kinds, len(rows.group), padded(kinds * count)))
-        add_fine(found, rows, source.columns, source.fine, p, begin + np.arange(count))
-        for q in groups:
-            first, other = rows.groups[BEGIN, q], rows.groups[IN_SLICE, q]
-            for d, e, node in np.ndindex((kinds, kinds, count)):
-                for j in range(end_of(rows, q) - first):
-                    section[d, place + node, e, other + j] = found[e, first + j, d * count + node]
+        found = np.zeros((kinds, n, padded(kinds * count)))
+        add_fine(found, (rows, source.columns, source.fine), p, begin + np.arange(count), rows.groups[IN_SLICE])
+        for d, e, node in np.ndindex((kinds, kinds, count)):
+            for other in range(n):
+                section[d, place + node, e, other] = found[e, other, d * count + node]
     return section
 
 
@@ -234,8 +239,8 @@ def _form(source, group, nodes):
         along = _displaced(source, gear, group, nodes)
         for e in range(others):
             add_seen(found[e], columns.near[gear], columns.first[gear], along[e])
-    add_fine(found, rows, columns, source.fine, group, nodes)
-    add_ends(found, rows, source.fine, group, nodes)
+    add_fine(found, (rows, columns, source.fine), group, nodes, columns.groups[BEGIN])
+    add_ends(found, rows, source.fine, group, nodes, rows.groups[BEGIN, group])
     layer = source.fine.layers[rows.groups[SLICE, group]] * source.fine.shares[rows.groups[SLICE, group]]
     if layer != 0.0:
         for d in range(kinds):
@@ -253,49 +258,6 @@ def _form(source, group, nodes):
 def _displaced(source, gear, group, nodes):
     """Displacement (e, r, j), mm/N, of a group's contact nodes on one gear by forces on the flank nodes j under all
     groups, less that of its plane section in the same slice; r as of `weighted`."""
-    rows, columns, sections = source.rows, source.columns, source.sections[gear]
-    own, other, offsets = rows.on_gears[gear, :, group], columns.on_gears[gear], (len(sections) - 1) // 2
-    axes, number = rows.axes[gear, group], rows.groups[SLICE, group]
+    own, rows = source.rows.on_gears[gear, :, group], source.rows
     weights, low = spread(rows.near[gear][nodes], rows.first[gear][nodes] - own[PLACE], own[WIDTH])
-    # Beyond the last flank node: narrow interpolations are as wide as the others, with weights of zero.
-    room = other[PLACE, -1] + other[WIDTH, -1] + columns.near.shape[2]
-    lines = np.zeros((len(weights), len(axes), columns.axes.shape[2], room))
-    _put_body(lines, source.blocks[gear], own, other, low, (axes, columns.axes[gear]))
-    for q in np.flatnonzero(columns.groups[SLICE] == number):
-        ahead, ends = offsets + own[TOOTH] - other[TOOTH, q], (other[PLACE, q], other[PLACE, q] + other[WIDTH, q])
-        firsts, share = (own[PLANE_NODE] + low, other[PLANE_NODE, q]), source.fine.shares[number]
-        add_section(lines, ends, sections[ahead], firsts, -share * axes, columns.axes[gear, q])
-    return weighted(lines, weights)
-
-
-@njit(cache=True)
-def _put_body(lines, blocks, own, other, low, directions):
-    """Compliance of a body between flank nodes i of a group, the first of them `low`, and those under all groups: by
-    `directions`, of the group (d, 5) and of all groups (Q, e, 5), into `lines` (i, d, e, j)."""
-    (axes, across), (teeth, sections, _, nodes, _, size) = directions, blocks.shape
-    numbers, found, products = blocks.reshape(-1), lines.reshape(-1), np.empty((len(across), size))
-    for d, e in np.ndindex((len(axes), across.shape[1])):
-        for q, a, b in np.ndindex((len(across), 3, 3)):
-            products[q, 3 * a + b] = axes[d, a] * across[q, e, b]
-        for i in range(len(lines)):
-            line = ((i * len(axes) + d) * across.shape[1] + e) * lines.shape[3]
-            for q in range(len(across)):
-                tile = (teeth // 2 + own[TOOTH] - other[TOOTH, q]) * sections + own[SECTION]
-                row = (tile * sections + other[SECTION, q]) * nodes + own[NODE] + low + i
-                at = (row * nodes + other[NODE, q]) * size
-                _put_products(found, line + other[PLACE, q], other[WIDTH, q], products[q], numbers, at)
-
-
-@njit(cache=True)
-def _put_products(found, place, count, weights, numbers, at):
-    """Put products of nine weights with so many times nine numbers into place."""
-    # uint64 avoids numba's wraparound check; three sums do not wait for each other.
-    a, b, c, d, e, f, g, h, k = (weights[0], weights[1], weights[2], weights[3], weights[4], weights[5], weights[6],
-                                 weights[7], weights[8])  # fmt: skip
-    at, one, two, three, four = np.uint64(at), np.uint64(1), np.uint64(2), np.uint64(3), np.uint64(4)
-    five, six, seven, eight, nine = np.uint64(5), np.uint64(6), np.uint64(7), np.uint64(8), np.uint64(9)
-    for j in range(np.uint64(place), np.uint64(place) + np.uint64(count)):
-        x = a * numbers[at] + b * numbers[at + one] + c * numbers[at + two]
-        y = d * numbers[at + three] + e * numbers[at + four] + f * numbers[at + five]
-        found[j] = x + y + (g * numbers[at + six] + h * numbers[at + seven] + k * numbers[at + eight])
-        at += nine
+    return weighted(displaced_by(source, gear, group, low, len(weights)), weights)

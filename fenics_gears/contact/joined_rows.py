@@ -14,7 +14,7 @@ from numba import carray, cfunc, njit
 
 from fenics_gears.system.memory import pages
 
-from .addresses import form_rows, to_flag, to_integer, to_number
+from .addresses import displacer_of, form_rows, to_flag, to_integer, to_number
 from .factored_compliance import Factors, factored_solver
 from .formed_rows import FormedRows
 from .joined_solver import joined_solver
@@ -140,7 +140,8 @@ def _room_for_factors(table: np.ndarray, parts: int) -> list[np.ndarray]:
     held = []
     sides = table[1 + parts + table[0, COUPLINGS] :]
     for number, row in enumerate(table[1 : 1 + parts]):
-        factors = Factors(int(row[COUNT]), 0)
+        nodes, source = int(row[COUNT]), int(row[TABLE])
+        factors = Factors(nodes, 0, source if displacer_of(source) else 0)
         motions = int(sides[sides[:, PART] == number, MOTIONS].sum())
         lasting = pages(2 * motions, int(row[COUNT]))
         row[FACTORS : MOVES + 1] = factors.table.ctypes.data, lasting.ctypes.data, motions

@@ -21,7 +21,7 @@ import numpy as np
 from numba import carray, cfunc, njit
 
 from .addresses import KNOWN, ROOM, forces_at, form_rows, to_integer, to_number
-from .factored_compliance import GETRS, Factored, System, has_factors, put_solutions
+from .factored_compliance import END, SOURCE, Factored, System, has_factors, put_solutions
 from .joined_table import (
     COUNT,
     FACTORS,
@@ -151,7 +151,8 @@ def _put_moved(tables, number, own, jacobian, moving, forces):
     if np.array_equal(forces_at(factored.table[KNOWN])[1:], own):
         moving[:], forces[:] = kept[0, :, :size], kept[1, :, :size]
         return True
-    form_rows(part[TABLE], own)
+    if factored.table[SOURCE] == 0:
+        form_rows(part[TABLE], own)
     if not has_factors(factored, system):
         return False
     first = 0
@@ -171,7 +172,7 @@ def _put_moved(tables, number, own, jacobian, moving, forces):
 def _system_of(part, own, jacobian):
     """The compliance of some nodes of a part, and the room for its factors."""
     size, nothing, compliance = len(own), np.empty(0), own_compliance(part)
-    table, lines = carray(to_integer(part[FACTORS]), GETRS + 1), np.empty((0, size))
+    table, lines = carray(to_integer(part[FACTORS]), END), np.empty((0, size))
     factored = Factored(carray(to_number(table[ROOM]), (size, size)), own, nothing, lines, lines, table)
     return factored, System(compliance, jacobian, jacobian, nothing, own, nothing, nothing, 1.0 / compliance[0, 0])
 

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from numba import carray, cfunc, njit
 
-from .addresses import form_rows, to_integer, to_number
+from .addresses import call, displacer_of, form_rows, to_integer, to_number
 from .compliance_product import subtract_displaced
 
 # In the table of all rows after what `addresses` names: how many parts, couplings and sides there are, nodes of all
@@ -79,7 +79,11 @@ def _displace(address, forces_address, displacement_address):
     for part in tables.parts:
         own = slice(part[FIRST], part[FIRST] + part[COUNT])
         loaded = np.flatnonzero(forces[own])
-        if len(loaded):
+        displacer = displacer_of(part[TABLE])
+        if displacer != 0:
+            own_forces, displaced = forces[own], displacement[own]
+            call(displacer, (part[TABLE], own_forces.ctypes.data, displaced.ctypes.data))
+        elif len(loaded):
             form_rows(part[TABLE], loaded)
             subtract_displaced(displacement[own], forces[own], own_compliance(part), np.int64(0))
     if not len(sides):

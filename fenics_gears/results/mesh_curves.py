@@ -17,6 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 from numba import njit
 
+from fenics_gears.contact.addresses import form_rows
 from fenics_gears.contact.laws import NO_FORCE, OPEN, Tolerance
 from fenics_gears.contact.mixed_form import (
     Iterate,
@@ -130,6 +131,7 @@ def _tangent(contact, nodes, faces):
         if solve_factored(equations, iterate, nodes, nothing, -approach):
             return iterate.forces.sum()
     # `solve_sets` would be compiled, and loaded by each run, once more.
+    form_rows(contact.rows, nodes)
     matrix = system_of(len(nodes))
     for i in range(len(nodes)):
         put_entries(matrix[i], compliance[nodes[i]], nodes, np.int64(0), 1.0)
