@@ -53,14 +53,18 @@ class SliceCompliance:
         number = len(self.values) // 2
         nodes, weights = self._seen[section]
         size = self.values.shape[3]
-        for flank, loaded in groupby(others, lambda other: other // self._slices):
-            of_layers = self._blocks[ahead, section // self._slices, nodes, :, flank]
+        for flank, of_flank in groupby(others, lambda other: other // self._slices):
+            loaded = list(of_flank)
+            # Of all heights those of few sections are loaded.
+            first = min(self._seen[other][0].start for other in loaded)
+            end = max(self._seen[other][0].stop for other in loaded)
+            of_layers = self._blocks[ahead, section // self._slices, nodes, :, flank, 3 * first : 3 * end]
             displaced = (weights @ of_layers.reshape(weights.shape[1], -1)).reshape(3 * size, -1, 3)
             # By loaded node: what a section averages is a product of matrices.
             by_nodes = np.ascontiguousarray(displaced.transpose(1, 0, 2)).reshape(displaced.shape[1], -1)
             for other in loaded:
                 under, averaged = self._seen[other]
-                between = (averaged @ by_nodes[under]).reshape(size, size, 3, 3).transpose(1, 0, 2, 3)
+                between = (averaged @ by_nodes[under.start - first : under.stop - first]).reshape(size, size, 3, 3).transpose(1, 0, 2, 3)
                 for add in self._additions:
                     add(between, ahead, section, other)
                 self.values[number + ahead, section, other] = between.reshape(size, size, 9)

@@ -83,6 +83,8 @@ def _simulated(
     for_operators = memory_for_operators(expected_cost(model), functools.partial(too_large, model))
     gears, cycle = prepare(model, progress, cache)
     cycle.kept.most = for_operators
+    # Of a run by itself that comes to each position once.
+    cycle.kept.needed = model.steps > cycle.steps
     progress.stage("compile")
     compiled = compile_kernels(model.scene.friction is not None, cycle.traits.rigid)
 

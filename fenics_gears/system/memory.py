@@ -126,15 +126,16 @@ SHARE_OF_A_BLOCK = 0.12
 @dataclass
 class Kept:
     """Memory (bytes) that operators may take at `most`, that the kept ones have `taken`, and of `others`, those of
-    other cycles. Operators beyond are made again each time the cycle comes round."""
+    other cycles. Operators beyond are made again each time the cycle comes round; `needed`: whether it does."""
 
     most: float = inf
     taken: float = 0.0
     others: float = 0.0
+    needed: bool = True
 
     def takes(self, size: float) -> bool:
         """Whether there is room for this many bytes more, which are then counted."""
-        if self.others + self.taken + size > SHARE_KEPT * self.most:
+        if not self.needed or self.others + self.taken + size > SHARE_KEPT * self.most:
             return False
         self.taken += size
         return True
