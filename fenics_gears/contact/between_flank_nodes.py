@@ -25,9 +25,14 @@ OF_SLICE, POSITION = range(6, 8)
 def between_flank_nodes(
     body: SliceCompliance, sections: np.ndarray, shares: np.ndarray, sides: Sequence[SectionNodes], gear: int
 ) -> list[np.ndarray]:
-    """M (f, f), mm/N, of a gear at each position, whose contact nodes the `sides` are, without friction. `sections` (k,
-    n, n, 4), mm per N/mm: of the body in plane strain; `shares` (S,), 1/mm: what one counts in its slice."""
-    matrices = _room_for([room_of(side, gear) for side in sides], max(side.near.shape[2] for side in sides))
+    """M, mm/N, of a gear at each position, whose contact nodes the `sides` are, without friction: by rows, each up to
+    the diagonal. `sections` (k, n, n, 4), mm per N/mm: of the body in plane strain; `shares` (S,), 1/mm: what one
+    counts in its slice."""
+    sizes = [int(side.on_gears[gear, WIDTH].sum()) for side in sides]
+    ends = np.cumsum([size * (size + 1) // 2 for size in sizes])
+    # In one piece, which the system hands out by large pages.
+    numbers = np.empty(ends[-1])
+    found = np.split(numbers, ends[:-1])
     groups = np.vstack(
         [
             np.hstack([side.on_gears[gear] for side in sides]),
@@ -38,33 +43,16 @@ def between_flank_nodes(
     order = np.lexsort((groups[POSITION], groups[SECTION]))
     groups = np.ascontiguousarray(groups[:, order].T)
     axes = np.concatenate([side.axes[gear, :, 0] for side in sides])[order]
-    ends = np.searchsorted(groups[:, SECTION], np.arange(body.values.shape[1] + 1))
-    held = np.array([(matrix.ctypes.data, len(matrix)) for matrix in matrices], dtype=np.int64)
-    _put_between(held, groups, ends, axes, body.values, sections, shares)
-    return matrices
-
-
-def _room_for(sizes: Sequence[int], unused: int) -> list[np.ndarray]:
-    """Square matrices of these sizes, of which the last rows and columns, which nothing is put into, are zero."""
-    # In one piece, which the system hands out by large pages: a third of the time.
-    ends = np.cumsum(np.square(sizes))
-    numbers = np.empty(ends[-1])
-    found = [numbers[end - size**2 : end].reshape(size, size) for size, end in zip(sizes, ends)]
-    for matrix in found:
-        matrix[-unused:], matrix[:, -unused:] = 0.0, 0.0
+    of_sections = np.searchsorted(groups[:, SECTION], np.arange(body.values.shape[1] + 1))
+    addresses = np.array([each.ctypes.data for each in found])
+    put_between(addresses, groups, of_sections, axes, body.values, sections, shares)
     return found
 
 
-def room_of(side: SectionNodes, gear: int) -> int:
-    """Room for the flank nodes under all groups."""
-    # Beyond the last flank node: narrow interpolations are as wide as the others, with weights of zero.
-    return int(side.on_gears[gear, WIDTH].sum()) + side.near.shape[2]
-
-
 @njit(cache=True, nogil=True)
-def _put_between(matrices, groups, ends, axes, blocks, sections, shares):
-    """Put the compliance between flank nodes into matrices, by their addresses and sizes (B, 2). The groups (P, 8) are
-    in order of their sections, of which each ends at `ends` (s + 1,), then of their positions."""
+def put_between(addresses, groups, ends, axes, blocks, sections, shares):
+    """Put the compliance between flank nodes of some positions to where their addresses are. The groups (P, 8) are in
+    order of their sections, of which each ends at `ends` (s + 1,), then of their positions."""
     for own in range(len(ends) - 1):
         for other in range(own + 1):
             q = ends[other]
@@ -72,22 +60,25 @@ def _put_between(matrices, groups, ends, axes, blocks, sections, shares):
                 position = groups[p, POSITION]
                 while q < ends[other + 1] and groups[q, POSITION] < position:
                     q += 1
-                address, size = matrices[position]
+                found = carray(to_number(addresses[position]), row_of(groups[p, PLACE] + groups[p, WIDTH]))
                 at = q
                 while at < ends[other + 1] and groups[at, POSITION] == position and (own != other or at <= p):
-                    found = carray(to_number(address), size * size)
-                    _put_pair(found, size, (groups[p], groups[at]), (axes[p], axes[at]), blocks)
+                    _put_pair(found, (groups[p], groups[at]), (axes[p], axes[at]), blocks, at == p)
                     if groups[p, OF_SLICE] == groups[at, OF_SLICE]:
                         share = shares[groups[p, OF_SLICE]]
-                        _subtract_section(found, size, (groups[p], groups[at]), (axes[p], axes[at]), sections, share)
+                        _subtract_section(found, (groups[p], groups[at]), (axes[p], axes[at]), sections, share)
                     at += 1
-    for address, size in matrices:
-        _mirror(carray(to_number(address), (size, size)))
 
 
 @njit(cache=True)
-def _put_pair(found, size, groups, axes, blocks):
-    """Put what is between the flank nodes of two groups below the diagonal."""
+def row_of(number):
+    """Where a row of M begins."""
+    return number * (number + 1) // 2
+
+
+@njit(cache=True)
+def _put_pair(found, groups, axes, blocks, same):
+    """Put what is between the flank nodes of two groups into M, up to the diagonal where they are the `same`."""
     (own, other), (along, across), nodes = groups, axes, blocks.shape[3]
     tile = (blocks.shape[0] // 2 + own[TOOTH] - other[TOOTH]) * blocks.shape[1] + own[SECTION]
     tile = tile * blocks.shape[1] + other[SECTION]
@@ -96,37 +87,24 @@ def _put_pair(found, size, groups, axes, blocks):
         x * across[0], x * across[1], x * across[2], y * across[0], y * across[1], y * across[2], z * across[0],
         z * across[1], z * across[2],
     )  # fmt: skip
-    numbers, place = blocks.reshape(-1), own[PLACE] * size + other[PLACE]
-    at = ((tile * nodes + own[NODE]) * nodes + other[NODE]) * 9
-    for _ in range(own[WIDTH]):
-        put_products(found, place, other[WIDTH], products, numbers, at)
-        place += size
+    numbers, at = blocks.reshape(-1), ((tile * nodes + own[NODE]) * nodes + other[NODE]) * 9
+    for i in range(own[WIDTH]):
+        count = i + 1 if same else other[WIDTH]
+        put_products(found, row_of(own[PLACE] + i) + other[PLACE], count, products, numbers, at)
         at += 9 * nodes
 
 
 @njit(cache=True)
-def _subtract_section(found, size, groups, axes, sections, share):
+def _subtract_section(found, groups, axes, sections, share):
     """Subtract what the plane section gives between the flank nodes of two groups in a slice."""
     (own, other), (along, across) = groups, axes
     section = sections[len(sections) // 2 + own[TOOTH] - other[TOOTH]]
     for i in range(own[WIDTH]):
-        place = (own[PLACE] + i) * size + other[PLACE]
-        for j in range(other[WIDTH]):
+        row, place = own[PLACE] + i, row_of(own[PLACE] + i) + other[PLACE]
+        for j in range(min(other[WIDTH], row + 1 - other[PLACE])):
             value = section[own[PLANE_NODE] + i, other[PLANE_NODE] + j]
             by_x, by_y = along[3] * value[0] + along[4] * value[2], along[3] * value[1] + along[4] * value[3]
             found[place + j] -= share * (by_x * across[3] + by_y * across[4])
-
-
-@njit(cache=True)
-def _mirror(matrix):
-    """Put what is above the diagonal into place."""
-    # uint64 avoids numba's wraparound check; by squares that a processor keeps at hand.
-    n, step = len(matrix), 16
-    for first in range(0, n, step):
-        for begin in range(0, first + 1, step):
-            for j in range(np.uint64(begin), np.uint64(min(begin + step, n))):
-                for i in range(np.uint64(max(first, j + 1)), np.uint64(min(first + step, n))):
-                    matrix[j, i] = matrix[i, j]
 
 
 @njit(cache=True)
@@ -136,7 +114,7 @@ def displaced_by(source, gear, group, low, count):
     rows, columns, sections = source.rows, source.columns, source.sections[gear]
     own, other, offsets = rows.on_gears[gear, :, group], columns.on_gears[gear], (len(sections) - 1) // 2
     axes, number = rows.axes[gear, group], rows.groups[SLICE, group]
-    # As of `room_of`.
+    # Beyond the last flank node: narrow interpolations are as wide as the others, with weights of zero.
     room = other[WIDTH].sum() + columns.near.shape[2]
     lines = np.zeros((count, len(axes), columns.axes.shape[2], room))
     _put_body(lines, source.blocks[gear], own, other, low, (axes, columns.axes[gear]))

@@ -14,13 +14,18 @@ from typing import NamedTuple
 
 import numpy as np
 from numba import carray, cfunc, njit
+from numba.extending import get_cython_function_address
 
-from .addresses import in_order, to_flag, to_integer, to_number
+from .addresses import call, in_order, number_vector, to_flag, to_integer, to_number
+from .between_flank_nodes import row_of
 from .compliance_product import add_multiple
 from .face_ends import add_ends
-from .factored_compliance import CLOSED, END, MEMBERS, SLOTS
-from .fine_sections import BEGIN, IN_SLICE, SLICE, Fine, SectionNodes, add_fine, end_of, padded
-from .formed_rows import arrays_at, fine_of, side_of
+from .factored_compliance import CLOSED, END, INT, MEMBERS, SLOTS
+from .fine_sections import BEGIN, IN_SLICE, PLACE, SLICE, WIDTH, Fine, SectionNodes, add_fine, end_of, padded
+from .formed_rows import MULTIPLY, arrays_at, fine_of, side_of
+
+# What BLAS is told.
+UPPER = ord("U")
 
 
 class _Source(NamedTuple):
@@ -37,11 +42,11 @@ class _Source(NamedTuple):
 @njit(cache=True)
 def _source(address):
     table = arrays_at(address)
-    first, second, in_slices, formed = table[34], table[35], table[36], table[37]
+    in_slices, formed = table[36], table[37]
     return _Source(
         side_of(table),
         fine_of(table),
-        (carray(to_number(first[0]), (first[1], first[2])), carray(to_number(second[0]), (second[1], second[2]))),
+        (number_vector(table[34]), number_vector(table[35])),
         carray(to_number(in_slices[0]), (in_slices[1], in_slices[2])),
         carray(to_flag(formed[0]), formed[1]),
     )
@@ -61,18 +66,19 @@ def _form_closed(address, factors, nodes, count):
     known, asked = carray(to_number(table[CLOSED]), (n, n)), carray(to_integer(nodes), count)
     missing = asked[slots[1:][asked] < 0]
     _form_fine(source, missing)
-    first, second = np.empty(len(source.between[0])), np.empty(len(source.between[1]))
-    for node in missing:
+    side, lines = source.nodes, (_line(source, 0), _line(source, 1))
+    # By what M has of rows, so that of most nodes a row has all.
+    for node in missing[np.argsort(side.on_gears[0, PLACE][side.group[missing]])]:
         slot = slots[0]
         members[slot], slots[1 + node], slots[0] = node, slot, slot + 1
         own = known[slot, : slot + 1]
         own[:] = 0.0
-        for gear, line in enumerate((first, second)):
-            _put_line(line, source.between[gear], source.nodes.near[gear, node], source.nodes.first[gear, node])
-            _add_seen_by(own, members, source.nodes.near[gear], source.nodes.first[gear], line)
-        groups = source.nodes.groups
-        for q in np.flatnonzero(groups[SLICE] == groups[SLICE, source.nodes.group[node]]):
-            for other in range(groups[BEGIN, q], end_of(source.nodes, q)):
+        for gear, line in enumerate(lines):
+            end = _put_line(line, source, gear, node)
+            _add_between(own, members, (side.near[gear], side.first[gear]), (line, end), (source.between[gear], node))
+        groups = side.groups
+        for q in np.flatnonzero(groups[SLICE] == groups[SLICE, side.group[node]]):
+            for other in range(groups[BEGIN, q], end_of(side, q)):
                 if 0 <= slots[1 + other] <= slot:
                     place = groups[IN_SLICE, q] + other - groups[BEGIN, q]
                     own[slots[1 + other]] += source.in_slices[node, place]
@@ -80,25 +86,49 @@ def _form_closed(address, factors, nodes, count):
 
 
 @njit(cache=True)
-def _put_line(line, between, weights, first):
-    """Put the weighted sum of rows of M, from the `first` on, into `line`."""
-    line[:] = 0.0
-    for k in range(len(weights)):
-        if weights[k] != 0.0:
-            add_multiple(line, weights[k], between[first + k], np.int64(0))
+def _line(source, gear):
+    """Room for what forces on a contact node displace at all flank nodes of a gear."""
+    # Narrow interpolations are as wide as the others, with weights of zero.
+    return np.zeros(source.nodes.on_gears[gear, WIDTH].sum() + source.nodes.near.shape[2])
 
 
 @njit(cache=True)
-def _add_seen_by(found, members, near, first, line):
-    """Add what some contact nodes, the first `members`, see of a line of flank nodes."""
+def _put_line(line, source, gear, node):
+    """Put the sum of those rows of M that a contact node sees, by its weights, into a line, to the last flank node of
+    its group; returns where that ends."""
+    side, between = source.nodes, source.between[gear]
+    weights, first, group = side.near[gear, node], side.first[gear, node], side.group[node]
+    end = side.on_gears[gear, PLACE, group] + side.on_gears[gear, WIDTH, group]
+    line[:end] = 0.0
+    for k in range(len(weights)):
+        row = first + k
+        if weights[k] != 0.0:
+            add_multiple(line[: row + 1], weights[k], between, row_of(row))
+            for other in range(row + 1, end):
+                line[other] += weights[k] * between[row_of(other) + row]
+    return end
+
+
+@njit(cache=True)
+def _add_between(found, members, seen, displaced, of):
+    """Add what is between a contact node and the first `members`: by what these see of its line, or of their own rows
+    of M where they begin after its end."""
+    (near, first), (line, end), (between, node) = seen, displaced, of
     # uint64 avoids numba's wraparound check.
     weights, width, one = near.reshape(-1), np.uint64(near.shape[1]), np.uint64(1)
     for slot in range(np.uint64(len(found))):
-        node = np.uint64(members[slot])
-        at, total = np.uint64(first[node]), 0.0
-        for k in range(node * width, node * width + width):
-            total += weights[k] * line[at]
-            at += one
+        member, total = np.uint64(members[slot]), 0.0
+        at = np.uint64(first[member])
+        if at < end:
+            for k in range(member * width, member * width + width):
+                total += weights[k] * line[at]
+                at += one
+        else:
+            for k in range(near.shape[1]):
+                if near[member, k] != 0.0:
+                    row = row_of(first[member] + k) + first[node]
+                    for j in range(near.shape[1]):
+                        total += near[member, k] * near[node, j] * between[row + j]
         found[slot] += total
 
 
@@ -134,9 +164,29 @@ def displacer():
     return cfunc("int64(int64, int64, int64)", cache=True)(_displace)
 
 
+@njit(cache=True)
+def _multiply(function, between, forces, moved):
+    """Put M times forces into place, by the address of what `multiplier` gives."""
+    numbers, factors = np.array([UPPER, len(forces), 1], dtype=np.int32), np.array([1.0, 0.0])
+    # Rows up to the diagonal are columns of what is above it. Of narrow interpolations' room M has nothing.
+    numbers[1] = int(np.sqrt(2 * len(between)))
+    at, one = np.int64(numbers.ctypes.data), np.int64(factors.ctypes.data)
+    size, step, zero = at + INT, at + 2 * INT, one + 8
+    vectors = forces.ctypes.data, moved.ctypes.data
+    call(function, (at, size, one, between.ctypes.data, vectors[0], step, zero, vectors[1], step))
+    # Named once more, for compiled code gives back an array as soon as nothing names it.
+    numbers[2] = int(factors[0])
+
+
+@cache
+def multiplier() -> int:
+    """Address of what multiplies a symmetric matrix of which half is stored by a vector."""
+    return get_cython_function_address("scipy.linalg.cython_blas", "dspmv")
+
+
 def _displace(address, forces_address, displacement_address):
     """Subtract what forces (n,) displace from displacements (n,); returns 1."""
-    source = _source(address)
+    source, multiply = _source(address), carray(to_integer(address), 1 + MULTIPLY)[MULTIPLY]
     nodes, groups, n = source.nodes, source.nodes.groups, len(source.nodes.group)
     forces, displacement = carray(to_number(forces_address), n), carray(to_number(displacement_address), n)
     loaded = np.flatnonzero(forces)
@@ -144,12 +194,13 @@ def _displace(address, forces_address, displacement_address):
         return 1
     _form_fine(source, loaded)
     for gear in range(2):
-        near, first, between = nodes.near[gear], nodes.first[gear], source.between[gear]
-        on_flanks = np.zeros(len(between))
+        near, first = nodes.near[gear], nodes.first[gear]
+        on_flanks = _line(source, gear)
         for node in loaded:
             for k in range(near.shape[1]):
                 on_flanks[first[node] + k] += near[node, k] * forces[node]
-        moved = np.dot(between, on_flanks)
+        moved = _line(source, gear)
+        _multiply(multiply, source.between[gear], on_flanks, moved)
         for node in range(n):
             for k in range(near.shape[1]):
                 displacement[node] -= near[node, k] * moved[first[node] + k]

@@ -70,6 +70,8 @@ class _Source(NamedTuple):
 # `addresses.displacer_of` read, 0 where there is none; then address and shape of each array, the last being the
 # flags that say which rows are formed.
 ARRAYS = 39
+# In its first line after these addresses: that of `closed_compliance.multiplier`.
+MULTIPLY = 4
 
 
 @dataclass(frozen=True, eq=False)
@@ -119,9 +121,9 @@ class FormedRows:
             factors = Factors(len(rows.group), n, table.ctypes.data if between else 0)
             table[0, 1:3] = factored_solver().address, factors.table.ctypes.data
         if between:
-            from .closed_compliance import displacer
+            from .closed_compliance import displacer, multiplier
 
-            table[0, 3] = displacer().address
+            table[0, 3], table[0, MULTIPLY] = displacer().address, multiplier()
         return cls(matrix, formed, by_columns, table, arrays, factors)
 
     @property

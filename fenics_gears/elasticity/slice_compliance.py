@@ -64,7 +64,11 @@ class SliceCompliance:
             by_nodes = np.ascontiguousarray(displaced.transpose(1, 0, 2)).reshape(displaced.shape[1], -1)
             for other in loaded:
                 under, averaged = self._seen[other]
-                between = (averaged @ by_nodes[under.start - first : under.stop - first]).reshape(size, size, 3, 3).transpose(1, 0, 2, 3)
+                between = (
+                    (averaged @ by_nodes[under.start - first : under.stop - first])
+                    .reshape(size, size, 3, 3)
+                    .transpose(1, 0, 2, 3)
+                )
                 for add in self._additions:
                     add(between, ahead, section, other)
                 self.values[number + ahead, section, other] = between.reshape(size, size, 9)

@@ -139,9 +139,23 @@ def _compile_part(name: str) -> None:
     for with_friction in (True, False):
         _evaluate(_steps(with_friction)[0], with_friction)
     # What is compiled already, a run in the plane does not load.
-    from fenics_gears.contact import factored_compliance, formed_rows, joined_rows, joined_solver, joined_table
+    from fenics_gears.contact import (
+        between_flank_nodes,
+        closed_compliance,
+        factored_compliance,
+        formed_rows,
+        joined_rows,
+        joined_solver,
+        joined_table,
+    )
 
     formed_rows.row_former()
+    closed_compliance.closed_former()
+    closed_compliance.displacer()
+    between_flank_nodes.put_between.compile(
+        "(int64[::1], int64[:, ::1], int64[::1], float64[:, ::1], float64[:, :, :, :, :, ::1], float64[:, :, :, ::1],"
+        " float64[::1])"
+    )
     joined_rows.joined_row_former()
     factored_compliance.factored_solver()
     joined_solver.joined_solver()

@@ -1,12 +1,17 @@
 """Compliance over a face times contact nodes' weights, against dense arithmetic."""
 
+import ctypes
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from tests.stand_in import stand_in_compliance
 
 from fenics_gears import ComputationError
 from fenics_gears.contact.addresses import form_rows
+from fenics_gears.contact.between_flank_nodes import between_flank_nodes
 from fenics_gears.contact.face_ends import displacement_beside
+from fenics_gears.contact.factored_compliance import FORMER
 from fenics_gears.contact.fine_sections import Fine, SectionNodes, by_nodes, stacked
 from fenics_gears.contact.formed_rows import FormedRows, fine_section, uncertain_slices
 
@@ -29,7 +34,12 @@ def side(random, kinds):
     )
     lowest = first.reshape(2, 4, 3).min(axis=2)
     widths = first.reshape(2, 4, 3).max(axis=2) + 2 - lowest
-    on_gears = [[TEETH, width, np.cumsum(width) - width, IN_SLICES, low, low] for width, low in zip(widths, lowest)]
+    # Flank nodes stand one section's after the other's.
+    order = np.argsort(IN_SLICES, kind="stable")
+    places = np.empty_like(widths)
+    places[:, order] = np.cumsum(widths[:, order], axis=1) - widths[:, order]
+    of_each = zip(widths, places, lowest)
+    on_gears = [[TEETH, width, place, IN_SLICES, low, low] for width, place, low in of_each]
     first += np.repeat(np.array(on_gears)[:, 2] - lowest, 3, axis=1)
     group, axes = np.repeat(np.arange(4), 3), random.standard_normal((2, 4, kinds, 5))
     begins, flanks = 9 * np.arange(8).reshape(2, 4), np.zeros(4, dtype=int)
@@ -106,6 +116,47 @@ def test_rows_are_those_of_whole_matrices(kinds):
     np.testing.assert_allclose(found.matrix[both], expected[both], rtol=1e-11, atol=1e-12 * np.abs(expected).max())
     assert not np.delete(found.matrix, both, axis=0).any()
     np.testing.assert_allclose(found.whole(), expected, rtol=1e-11, atol=1e-12 * np.abs(expected).max())
+
+
+def test_without_friction_no_rows_are_needed():
+    """Identity: between closed nodes, whatever the order in which they close, and of what forces displace, it is the
+    compliance of all rows; also where other positions are built with it."""
+    random = np.random.default_rng(7)
+    (own, _, _), (other, _, _) = side(random, 1), side(random, 1)
+    shape = (-1, SLICES, 3 * NODES, SLICES, 3 * NODES)
+    blocks = [
+        by_nodes(symmetric(random, 3 * NODES * SLICES).reshape(shape).transpose(0, 1, 3, 2, 4), 3) for _ in range(2)
+    ]
+    planes = [by_nodes(symmetric(random, 2 * NODES), 2) for _ in range(2)]
+    sections = [by_nodes(symmetric(random, 2 * FINE_NODES)[:, None, None], 2) for _ in range(2)]
+    ends = np.zeros((SLICES, 1, 1, 4))
+    ends[0, :, :] = 3.0, 0.0, 0.5, 0.2
+    fine = Fine(*sections, random.random(SLICES), random.random(SLICES), ends)
+    bodies = [*zip(blocks, planes)]
+    between = [
+        between_flank_nodes(SimpleNamespace(values=block), plane, fine.shares, [other, own], gear)[1]
+        for gear, (block, plane) in enumerate(bodies)
+    ]
+    found = FormedRows.of(bodies, own, own, fine, between=between)
+    forces = np.where(np.arange(12) % 3, random.random(12), 0.0)
+    displaced = np.zeros(12)
+    call_of(found.table[0, 3])(found.address, forces.ctypes.data, displaced.ctypes.data)
+    for closed in (np.array([1, 7, 10]), np.arange(12)):
+        former = call_of(found.factors.table[FORMER], 4)
+        former(found.address, found.factors.table.ctypes.data, closed.ctypes.data, len(closed))
+    known, members, slots = found.factors.arrays[-3:]
+    assert not found.formed.any() and sorted(members) == [*range(12)] and slots[0] == 12
+    expected = FormedRows.of(bodies, own, own, fine).whole()
+    scale = np.abs(expected).max()
+    np.testing.assert_allclose(-displaced, expected @ forces, rtol=0.0, atol=1e-13 * scale)
+    np.testing.assert_allclose(
+        np.tril(known), np.tril(expected[np.ix_(members, members)]), rtol=0.0, atol=1e-13 * scale
+    )
+
+
+def call_of(address, numbers=3):
+    """The C function at an address, of so many integers."""
+    return ctypes.CFUNCTYPE(ctypes.c_int64, *[ctypes.c_int64] * numbers)(int(address))
 
 
 def test_slices_that_are_taken_as_independent_are(paper_pair):
