@@ -103,18 +103,20 @@ class RowResult:
         """Loss of contact in all meshes, which has no meaning where gears turn through a mesh's backlash meanwhile."""
         if not march.separations:
             return []
-        lost = f"no flanks touch in any mesh in {len(march.separations)} of {march.steps} steps"
+        coast = recorder.cycle.coast_flanks
+        lost = (
+            f"no {'drive ' if coast else ''}flanks touch in any mesh in {len(march.separations)} of {march.steps} steps"
+        )
         first = march.steps - self._row.recorded if self._row.recorded else 0
         # The smallest opening of all meshes: each is open by as much.
         widest = max((opening for step, opening in march.separations if step >= first), default=0.0)
         # Of gears without backlash a number of round-off.
         backlash = max(round(recorder.cycle.pair.backlash, 9), 0.0)
-        if widest <= backlash:
+        if widest <= backlash or coast:
             return [lost]
         return [
             f"{NO_MEANING}: {lost}, and they come {widest * 1e3:.4g} um apart. That is more than the backlash of"
-            f" {backlash * 1e3:.4g} um: the coast flanks would touch, which meshes that are computed"
-            " together do not have"
+            f" {backlash * 1e3:.4g} um: the coast flanks would touch, which this scene does not have"
         ]
 
     def _numbers(self, recorder: Recorder) -> dict[str, Any]:

@@ -8,7 +8,7 @@ import pytest
 from tests.planets import in_time
 from tests.simulation.test_train_motion import BEARINGS, FRICTION, INERTIA, motion, shaft
 from tests.simulation.test_train_shafts import all_bent, cut_in
-from tests.trains import COARSE, bent_two_stages, helical_row, row_section, split_text, stage, two_stages
+from tests.trains import COARSE, bent_two_stages, helical_row, row, row_section, split_text, stage, two_stages
 
 from fenics_gears import train_from_text
 from fenics_gears.dynamics.energy_account import account, quadratic
@@ -35,6 +35,12 @@ def stages_behind_an_idler() -> TrainScene:
     more = MOVING + FRICTION + shaft("middle", '"row.3", "second.pinion"', 1e8) + shaft("end", '"second.wheel"', 2e8)
     load = f'[load]\noutput_torque = "400 N m"\n[accuracy]\n{COARSE}\n'
     return train_from_text(idlers + stage("second", 3.0, (20, 40)) + load + more)
+
+
+def wedged_idler() -> TrainScene:
+    """Its middle gear runs out by more than its teeth have play, so that both of their flanks press in both meshes."""
+    run_out = '[stages.row.eccentricity.2]\ndistance = "15 um"\n[stages.row.coast_flanks]\n'
+    return row([24, 31, 40], [0, 60], 300, more=run_out + MOVING + FRICTION)
 
 
 def clocked_paths() -> TrainScene:
@@ -67,6 +73,7 @@ def set_at_speed() -> TrainScene:
 
 CASES = {
     "helical idler": (helical_idler, 1e9),
+    "an idler wedged between its mates": (wedged_idler, 1e9),
     "stages behind an idler": (stages_behind_an_idler, 1e9),
     "a speed ramp": (lambda: train_from_text(two_stages(more=MOVING + FRICTION + RAMP).text), 1e9),
     "several loads": (several_loads, 1e9),
