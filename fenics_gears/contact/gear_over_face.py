@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from functools import partial
 from itertools import permutations, product
 from typing import NamedTuple
 
@@ -93,12 +94,14 @@ class GearOverFace:
     ) -> tuple[list[Coupling], list[Coupling]]:
         there = [(cycles[mesh.number], parts[mesh.number]) for mesh in self.meshes]
         pairs = [part.position.operator.pairs for _, part in there]
-        now = self._seen([cycle for cycle, _ in there], pairs, indices=[part.position.index for _, part in there])
-        if not there[0][0].tangential:
+        tangential = any(cycle.tangential for cycle in cycles)
+        seen = partial(self._seen, [cycle for cycle, _ in there], tangential)
+        now = seen(pairs, indices=[part.position.index for _, part in there])
+        if not tangential:
             return self._coupled(now, now), []
-        before = self._seen([cycle for cycle, _ in there], [part.before for _, part in there])
+        before = seen([part.before for _, part in there])
         # The tangents of its nodes as they were a step before.
-        turned = self._seen([cycle for cycle, _ in there], pairs, steps)
+        turned = seen(pairs, steps)
         return self._coupled(now, now), self._coupled(before, turned)
 
     def response(self, kinds: tuple[int, int], teeth: np.ndarray, others: np.ndarray) -> np.ndarray:
@@ -126,6 +129,7 @@ class GearOverFace:
     def _seen(
         self,
         cycles: Sequence[Cycle],
+        tangential: bool,
         pairs_of: Sequence[Sequence[FacePair]],
         steps: float | None = None,
         indices: Sequence[float] | None = None,
@@ -141,7 +145,7 @@ class GearOverFace:
             counts = [len(pair.offsets) for pair in pairs]
             known, key = _known_at(mesh, cycle, index)
             if key not in known:
-                known[key] = _moved(motions, mesh.gear, cycle, pairs, turned)
+                known[key] = _moved(motions, mesh.gear, cycle, pairs, (tangential, turned))
             moved = known[key]
             different, own = np.unique(np.repeat(numbered, counts, axis=0), axis=0, return_inverse=True)
             found.append(OnBody(moved, different, own.ravel()))
@@ -253,9 +257,11 @@ def _in_slices(body: FaceCompliance, motions: Sequence[np.ndarray], gear: int, c
     return np.concatenate(found)
 
 
-def _moved(motions: np.ndarray, gear: int, cycle: Cycle, pairs: Sequence[FacePair], turned: float | None) -> np.ndarray:
+def _moved(
+    motions: np.ndarray, gear: int, cycle: Cycle, pairs: Sequence[FacePair], along_axes: tuple[bool, float | None]
+) -> np.ndarray:
     """How contact nodes of a mesh move (d, n, r), along their directions, by motions of its pinion's (0) or its wheel's
-    (1) body in slices; with `turned` as of `contact_axes`."""
+    (1) body in slices; `along_axes`: `tangential` and `turned` as of `contact_axes`."""
     counts = [len(pair.offsets) for pair in pairs]
     first, near, _ = together([pair.coarse for pair in pairs])
     slices = cycle.face.slices
@@ -268,5 +274,5 @@ def _moved(motions: np.ndarray, gear: int, cycle: Cycle, pairs: Sequence[FacePai
     ends = weights.shape[1] * np.arange(len(weights) + 1)
     seen = sparse.csr_matrix((weights.ravel(), columns.ravel(), ends), shape=(len(weights), len(motions)))
     along = (seen @ motions.reshape(len(motions), -1)).reshape(len(weights), 3, -1)
-    axes = contact_axes(cycle.face, cycle.pair.sides[gear], pairs, cycle.tangential, turned)
+    axes = contact_axes(cycle.face, cycle.pair.sides[gear], pairs, *along_axes)
     return np.einsum("ndc,ncr->dnr", np.repeat(axes[:, :, :3], counts, axis=0), along)

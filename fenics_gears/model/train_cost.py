@@ -35,7 +35,7 @@ def row_cost(row: RowModel) -> ExpectedCost:
     together = WITH_FACTORS * sum(each.operators**0.5 for each in costs) ** 2
     # Meshes that are like others share their operators. Over the face they are solved one by one without friction.
     own = sum(each.operators for each, mesh in zip(costs, row.meshes) if mesh.like is None)
-    alone = row.over_face and row.models[0].scene.friction is None
+    alone = row.over_face and not row.friction
     operators = own + (0.0 if row.passes_once or alone else together)
     # Gears are condensed one after the other.
     passing = max(each.passing for each in costs)

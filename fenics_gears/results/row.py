@@ -47,7 +47,7 @@ class RowResult:
             recorder.take(own)
         if self._row.bent is not None or self._row.shafts.carrier is not None:
             self._states.append(solved.states[:, 0])
-        if self._row.models[0].scene.friction is None:
+        if not self._row.friction:
             return
         together = solved if self._last is None else self._last.followed_by(solved)
         equations = self._row.equations_of_motion
@@ -76,7 +76,7 @@ class RowResult:
             # All of them took that march.
             seconds = (0.0 if found else march.seconds, 0.0)
             found.append(MeshResult(mesh.name, own, numbers, said, seconds))
-        if self._row.models[0].scene.friction is not None and not march.locked:
+        if self._row.friction and not march.locked:
             found[-1].numbers["friction_loss"] = self._friction_loss()
         if self._states:
             found[0] = replace(found[0], shafts=self._of_shafts(np.concatenate(self._states)))
