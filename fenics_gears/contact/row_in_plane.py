@@ -118,7 +118,8 @@ class RowInPlane:
             before *= np.outer(then, now[nodes:])
             # Without friction each node by itself.
             bare = np.flatnonzero(now == 0.0)
-            compliance[bare, bare] = compliance[0, 0]
+            if len(bare):
+                compliance[bare, bare] = compliance[0, 0]
         return compliance, before.T if tangential else None
 
     def _through(

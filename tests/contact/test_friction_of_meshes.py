@@ -15,6 +15,7 @@ from fenics_gears.dynamics.march import Marcher
 from fenics_gears.dynamics.steps import Steps
 from fenics_gears.geometry.friction_formulas import schlenk
 from fenics_gears.model.train import train_model_of
+from fenics_gears.model.train_cost import WITH_FACTORS, row_cost
 from fenics_gears.simulation.train import of_mesh, row_cycle
 from fenics_gears.system.progress import SilentProgress
 
@@ -164,3 +165,14 @@ def test_no_friction_acts_where_there_is_none(text_of):
         assert not tangential[first : first + bare.operator.nodes].any()
         rubbed += np.abs(tangential).sum()
     assert rubbed > 0.0 and of_mesh(steps, cycle, 1).kinds == 1
+
+
+def test_expected_memory_where_some_meshes_have_friction():
+    """Counted arrays: a mesh without friction has rows of both kinds among all meshes, and its own alone."""
+    text = idler_of_stages("", 'helix_angle = "15 deg"\n', FEW)
+    (model,) = train_model_of(train_from_text(f"{text}\n[motion]\nmesh_cycles = 2")).rows
+    cycle = row_cycle(model, SilentProgress(), None)
+    steps = range(cycle.steps)
+    together = sum(cycle.position(step).bytes for step in steps)
+    alone = sum(mesh.cycle.position(step).bytes for mesh in cycle.meshes for step in steps)
+    assert row_cost(model).operators == pytest.approx(WITH_FACTORS * together + alone, rel=0.3)
