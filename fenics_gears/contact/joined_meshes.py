@@ -40,11 +40,15 @@ class JoinedMeshes:
         self, cycles: Sequence[Cycle], parts: Sequence[Part], counts: tuple[int, int], steps: float
     ) -> tuple[FormedRows, FormedRows | None]:
         nodes, nodes_before = counts
-        tangential = cycles[0].tangential
+        tangential = any(cycle.tangential for cycle in cycles)
         kinds = 2 if tangential else 1
         couplings = [gear.couplings(cycles, parts, steps) for gear in self._gears]
         now, earlier = ([each for found in couplings for each in found[time]] for time in (0, 1))
-        own = [Joined(_rows(part, "compliance"), part.first, part.first) for part in parts]
+        frictional = [cycle.tangential for cycle in cycles]
+        own = [
+            Joined(_rows(part, "compliance"), (part.first, part.nodes), (part.first, part.nodes), 1 + rubs)
+            for part, rubs in zip(parts, frictional)
+        ]
         units = units_of(parts)
         of_rows, of_columns = (None, None) if units is None else ((units[0],) * 2, (units[1], units[0][nodes:]))
         compliance = joined_rows(own, now, (nodes, nodes), (kinds, kinds), of_rows)
@@ -52,7 +56,13 @@ class JoinedMeshes:
         form_rows(compliance.address, np.zeros(1, dtype=np.int64))
         if not tangential:
             return compliance, None
-        own = [Joined(_rows(part, "previous_compliance"), part.first_before, part.first) for part in parts]
+        own = [
+            Joined(
+                _rows(part, "previous_compliance") if rubs else AllRows(np.empty((0, part.nodes))),
+                (part.first_before, part.nodes_before), (part.first, part.nodes), 2 * rubs,
+            )
+            for part, rubs in zip(parts, frictional)
+        ]  # fmt: skip
         return compliance, joined_rows(own, earlier, (nodes_before, nodes), (2, 1), of_columns, by_columns=True)
 
 

@@ -39,6 +39,7 @@ from .joined_table import (
     MOVES,
     NUMBERS,
     OWN,
+    OWN_KINDS,
     PART,
     PARTS,
     RESPONDING,
@@ -67,11 +68,13 @@ class AllRows(NamedTuple):
 
 
 class Joined(NamedTuple):
-    """Rows of a mesh among those of all: its first node among rows and among columns."""
+    """Rows of a mesh among those of all: its first node and how many it has, among rows and among columns; and
+    `kinds`, how many forces of a node have rows, fewer of a mesh without friction."""
 
     rows: FormedRows | AllRows
-    first: int
-    first_column: int
+    nodes: tuple[int, int]
+    columns: tuple[int, int]
+    kinds: int
 
 
 class Coupling(NamedTuple):
@@ -114,9 +117,8 @@ def joined_rows(
         factors = Factors(nodes, kinds[0] * nodes)
         table[0, 1:3] = factored_solver().address, factors.table.ctypes.data
     for row, part in zip(table[1:], parts):
-        counts = [length // kind for length, kind in zip(part.rows.matrix.shape, kinds)]
-        own = part.rows.address, part.rows.matrix.ctypes.data
-        row[:6] = *own, part.first, counts[0], part.first_column, counts[1]
+        row[:6] = part.rows.address, part.rows.matrix.ctypes.data, *part.nodes, *part.columns
+        row[OWN_KINDS] = part.kinds
         held += [*part.rows.arrays, part.rows.table]
     for row, each in zip(table[1 + len(parts) :], couplings):
         row[:2] = each[:2]
@@ -188,6 +190,7 @@ def _form_joined_rows(address, nodes, count):
                     _put_coupled(head, part, table[1 + coupling[LOADED]], coupling, own)
             if head[UNITS] != 0:
                 _put_units(head, own)
+                _put_alone(head, part, own)
             formed[own] = True
     return 1
 
@@ -195,7 +198,8 @@ def _form_joined_rows(address, nodes, count):
 @njit(cache=True)
 def _copy(head, part, nodes):
     """Copy rows of a mesh into those of all."""
-    matrix, kinds, others = _matrix(head), head[KINDS], head[KINDS_OF_COLUMNS]
+    matrix, kinds = _matrix(head), part[OWN_KINDS]
+    others = min(kinds, head[KINDS_OF_COLUMNS])
     m, first = part[COUNT_OF_COLUMNS], part[FIRST_COLUMN]
     source = carray(to_number(part[OWN]), (kinds * part[COUNT], others * m))
     for d, e in np.ndindex((kinds, others)):
@@ -230,6 +234,15 @@ def _put_units(head, nodes):
         for node in nodes:
             row = d * head[ROWS] + node
             matrix[row] *= of_rows[row] * of_columns
+
+
+@njit(cache=True)
+def _put_alone(head, part, nodes):
+    """Have the tangential displacement of nodes without friction follow from their own force alone."""
+    if part[OWN_KINDS] < head[KINDS] == head[KINDS_OF_COLUMNS]:
+        matrix = _matrix(head)
+        for node in nodes:
+            matrix[head[ROWS] + node, head[COLUMNS] + node] = matrix[0, 0]
 
 
 @njit(cache=True)

@@ -19,8 +19,8 @@ PARTS, COUPLINGS, SIDES, ROWS, COLUMNS, KINDS, KINDS_OF_COLUMNS, MATRIX, FORMED,
 NUMBERS = 15
 # Of a part: address of its table, of its matrix, its first node among rows and columns, and how many it has. Then,
 # where all is solved mesh by mesh, addresses of its Factors and of what lasts with them, and how many motions its sides
-# have.
-TABLE, OWN, FIRST, COUNT, FIRST_COLUMN, COUNT_OF_COLUMNS, FACTORS, LASTING, MOVES = range(9)
+# have. Last, forces of a node that have rows.
+TABLE, OWN, FIRST, COUNT, FIRST_COLUMN, COUNT_OF_COLUMNS, FACTORS, LASTING, MOVES, OWN_KINDS = range(10)
 # Of a coupling: the part that responds and the one that is loaded; addresses of what moves the nodes of either, and of
 # what is between these motions; how many motions each has. Then, where all is solved mesh by mesh, the number of the
 # side that responds and of that which is loaded.

@@ -5,7 +5,8 @@ A mesh is described in a frame in which its pinion turns counter-clockwise. From
 frame is the mirror image, in which the other flanks of the gear between them are its drive flanks.
 
 A mesh with a coefficient of friction s mu has its tangential displacements here times s and its tangential forces by s:
-with the one coefficient mu they obey the same law, and do the same work.
+with the one coefficient mu they obey the same law, and do the same work. Of a mesh without friction, s = 0, none are
+left but those that each node would have by itself; these stay zero.
 """
 
 from __future__ import annotations
@@ -126,7 +127,7 @@ class RowCycle(Cycle):
         alike = len({each.cycle.steps for each in meshes}) == 1
         # After so many steps all of them are where they were.
         steps = lcm(*(each.cycle.steps for each in meshes))
-        super().__init__(first.mesh, steps, [], first.tangential)
+        super().__init__(first.mesh, steps, [], any(each.cycle.tangential for each in meshes))
         # Of several lengths, a cycle of all is so long that the last step is nearer.
         self.traits = replace(self.traits, repeats=all(each.cycle.traits.repeats for each in meshes) and alike)
         self.meshes = list(meshes)
@@ -250,18 +251,25 @@ class RowCycle(Cycle):
         compliance, compliance_before = self._compliance.of(cycles, parts, (first, first_before), step - before)
         operators = [part.position.operator for part in parts]
         moved = [each.stored_jacobians[0] @ mesh.moving for each, mesh in zip(operators, self.meshes)]
-        jacobian = _stacked(moved, operators)
         rigid_slip = None
         jacobian_before = None
         if self.tangential:
-            rigid_slip = np.concatenate([each.rigid_slip for each in operators])
-            stood = [each.stored_jacobians[1] @ mesh.moving for each, mesh in zip(operators, self.meshes)]
+            bare = [not mesh.cycle.tangential for mesh in self.meshes]
+            # A mesh without friction has rows of zeros.
+            moved = [np.pad(own, [(0, len(own) * none), (0, 0)]) for own, none in zip(moved, bare)]
+            slip = [np.zeros(each.nodes) if none else each.rigid_slip for each, none in zip(operators, bare)]
+            stood = [
+                0.0 * own[: each.nodes] if none else each.stored_jacobians[1] @ mesh.moving
+                for own, each, none, mesh in zip(moved, operators, bare, self.meshes)
+            ]
+            rigid_slip = np.concatenate(slip)
             jacobian_before = np.concatenate(stood)
-            units = units_of(parts)
-            if units is not None:
-                jacobian *= units[0][:, None]
-                rigid_slip *= units[0][first:]
-                jacobian_before *= units[0][first:, None]
+        jacobian = _stacked(moved, operators)
+        units = units_of(parts) if self.tangential else None
+        if units is not None:
+            jacobian *= units[0][:, None]
+            rigid_slip *= units[0][first:]
+            jacobian_before *= units[0][first:, None]
         operator = ContactOperator(
             pairs=tuple(pair for each in operators for pair in each.pairs),
             sides=operators[0].sides,

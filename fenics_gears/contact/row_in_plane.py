@@ -87,7 +87,7 @@ class RowInPlane:
         self, cycles: Sequence[Cycle], parts: Sequence[Part], counts: tuple[int, int], steps: float
     ) -> tuple[np.ndarray, np.ndarray | None]:
         nodes, nodes_before = counts
-        tangential = cycles[0].tangential
+        tangential = any(cycle.tangential for cycle in cycles)
         kinds = 2 if tangential else 1
         compliance = np.zeros((kinds * nodes, kinds * nodes))
         # By columns, as compiled code reads it.
@@ -95,16 +95,17 @@ class RowInPlane:
         # By slices: numpy takes longer for lists of rows.
         by_kind = compliance.reshape(kinds, nodes, kinds, nodes)
         stood = before.reshape(2, nodes_before, nodes)
-        for part in parts:
+        for cycle, part in zip(cycles, parts):
             own = part.own
             of_mesh = part.position.operator.compliance
-            by_kind[:, own, :, own] = of_mesh.reshape(kinds, part.nodes, kinds, part.nodes)
-            if tangential:
+            there = 2 if cycle.tangential else 1
+            by_kind[:there, own, :there, own] = of_mesh.reshape(there, part.nodes, there, part.nodes)
+            if cycle.tangential:
                 earlier = part.position.operator.previous_compliance
                 stood[:, part.own_before, own] = earlier.T.reshape(2, part.nodes_before, part.nodes)
         for gear, blocks in self._gears:
             meshes = [(cycles[mesh], parts[mesh]) for mesh in gear.meshes]
-            coupling = self._through(gear, blocks, meshes, steps)
+            coupling = self._through(gear, blocks, meshes, (steps, tangential))
             (_, one), (_, other) = meshes
             by_kind[:, other.own, :, one.own] += coupling.now
             by_kind[:, one.own, :, other.own] += coupling.now.transpose(2, 3, 0, 1)
@@ -115,33 +116,40 @@ class RowInPlane:
             now, then = units
             compliance *= np.outer(now, now)
             before *= np.outer(then, now[nodes:])
+            # Without friction each node by itself.
+            bare = np.flatnonzero(now == 0.0)
+            if len(bare):
+                compliance[bare, bare] = compliance[0, 0]
         return compliance, before.T if tangential else None
 
-    def _through(self, gear: GearInPlane, blocks: Blocks, meshes: list[tuple[Cycle, Part]], steps: float) -> _Coupling:
-        """How two meshes of a gear feel each other through it."""
+    def _through(
+        self, gear: GearInPlane, blocks: Blocks, meshes: list[tuple[Cycle, Part]], after: tuple[float, bool]
+    ) -> _Coupling:
+        """How two meshes of a gear feel each other through it `after` so many steps, with tangential rows or not."""
         flanks = FlankTable()
-        products, back = _products(gear, blocks, meshes, flanks, steps)
+        products, back = _products(gear, blocks, meshes, flanks, after)
         sizes = [(part.nodes, part.nodes_before) for _, part in meshes]
         key = tuple(sizes), flanks.addresses, tuple(products), tuple(back), gear.face_width
         found = self._known.get(key)
         if found is None:
-            found = _multiplied(sizes, flanks, (products, back), meshes[0][0].tangential, gear.face_width)
+            found = _multiplied(sizes, flanks, (products, back), after[1], gear.face_width)
             if self.kept.takes(found.bytes):
                 self._known[key] = found
         return found
 
 
 def _products(
-    gear: GearInPlane, blocks: Blocks, meshes: list[tuple[Cycle, Part]], flanks: FlankTable, steps: float
+    gear: GearInPlane, blocks: Blocks, meshes: list[tuple[Cycle, Part]], flanks: FlankTable, after: tuple[float, bool]
 ) -> tuple[list[tuple[int, ...]], list[float]]:
     """What is to be multiplied, as `add_products` takes it, with the nodes of these two meshes alone."""
+    steps, tangential = after
     now = []
     earlier = []
     first = 0
     first_before = 0
-    for mesh, (side, (cycle, part)) in enumerate(zip(gear.gear.sides, meshes)):
+    for mesh, (side, (_, part)) in enumerate(zip(gear.gear.sides, meshes)):
         now.append(_shifted(gear, mesh, flanks.of(part.position.operator.pairs, side), first))
-        own = flanks.of(part.before, side) if cycle.tangential else []
+        own = flanks.of(part.before, side) if tangential else []
         earlier.append(_shifted(gear, mesh, own, first_before))
         first += part.nodes
         first_before += part.nodes_before

@@ -54,9 +54,11 @@ def natural_frequencies(drivetrain: Drivetrain, mesh_stiffness: float | np.ndarr
     return modes(drivetrain, mesh_stiffness)[0]
 
 
-def vibrations(drivetrain: Drivetrain, mesh_stiffness: float | np.ndarray, friction: bool = False) -> list[Vibration]:
+def vibrations(
+    drivetrain: Drivetrain, mesh_stiffness: float | np.ndarray, friction: bool | np.ndarray = False
+) -> list[Vibration]:
     """The elastic modes by frequency, as far as they are right; none without masses. `friction`: whether contact forces
-    also act across the line of action.
+    also act across the line of action, of all meshes or of each.
 
     >>> from fenics_gears import load_scene, model_of
     >>> drivetrain = model_of(load_scene("demos/lundvall2004.toml")).drivetrain
@@ -66,8 +68,8 @@ def vibrations(drivetrain: Drivetrain, mesh_stiffness: float | np.ndarray, frict
     if drivetrain.mass is None:
         return []
     frequencies, shapes = modes(drivetrain, mesh_stiffness)
-    along = drivetrain.mesh.normals
-    directions = np.concatenate([along, drivetrain.mesh.across]) if friction else along
+    across = drivetrain.mesh.across
+    directions = np.concatenate([drivetrain.mesh.normals, across[np.broadcast_to(friction, len(across))]])
     moved = np.abs(directions @ shapes).max(axis=0)
     if np.isinf(mesh_stiffness).any():
         # Tied flanks do not move apart in any mode; their errors excite every mode.

@@ -23,12 +23,19 @@ class Reach:
     same: the largest between two drive flanks, or two coast flanks. across: least and largest between a drive and a
     coast flank, positive where the tooth of the drive flank is ahead, counter-clockwise; None where coast flanks are
     not loaded. far: over the face least and largest between like flanks that different mates load, the shorter way
-    round the gear; None where no two mates load like flanks.
+    round the gear; None where no two mates load like flanks. own: over the face, of a gear of several mates, `across`
+    of flanks that one of them loads; None where each loads one kind.
     """
 
     same: int
     across: tuple[int, int] | None = None
     far: tuple[int, int] | None = None
+    own: tuple[int, int] | None = None
+
+    @property
+    def of_one_mate(self) -> int:
+        """The largest, of flanks that one of several mates loads."""
+        return max(map(abs, (self.same, *(self.own or ()))))
 
     @property
     def farthest(self) -> int:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -44,6 +44,18 @@ class FaceCompliance:
         """Largest distance, in pitches, between two teeth whose interaction is known."""
         return len(self.blocks) - 1
 
+    @property
+    def of_drive_flanks(self) -> FaceCompliance:
+        """That of drive flanks alone."""
+        if self.flanks == 1:
+            return self
+        half = self.plane.blocks.shape[1] // 2
+        plane = replace(self.plane, blocks=np.ascontiguousarray(self.plane.blocks[:, :half, :half]), flanks=1)
+        half = self.blocks.shape[1] // 2
+        blocks = np.ascontiguousarray(self.blocks[:, :half, :half])
+        near = None if self.near is None else self.near.of_flanks(slice(1))
+        return replace(self, blocks=blocks, plane=plane, near=near, flanks=1)
+
 
 @dataclass(frozen=True)
 class BetweenMates:
@@ -59,7 +71,8 @@ class BetweenMates:
 @dataclass(frozen=True)
 class SharedCompliance:
     """The body of a gear that several mates load: of its drive `flanks` and, where they are loaded, of its coast flanks
-    as the drive flanks of its mirror image, in which heights stay; and what is `between` flanks of different mates."""
+    as the drive flanks of its mirror image, in which heights stay; where a mate loads flanks of both kinds, either with
+    its coast flanks. And what is `between` flanks of different mates."""
 
     flanks: tuple[FaceCompliance, ...]
     between: BetweenMates

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from math import cos, floor, pi, sin
+from typing import TypeVar
 
 import numpy as np
 
@@ -26,6 +27,8 @@ from .train_graph import PINION, TrainGraph, turns_of_shafts
 
 # Of phases, in mesh cycles.
 ROUND_OFF = 1e-9
+# The number of a tooth, or a place between teeth.
+Tooth = TypeVar("Tooth", int, float)
 
 
 @dataclass(frozen=True)
@@ -48,7 +51,7 @@ class SharedGear:
         in which they mesh."""
         return self.tooth if self.sides[0] else -self.tooth
 
-    def flank(self, mesh: int, flank: tuple[int, int]) -> tuple[int, int]:
+    def flank(self, mesh: int, flank: tuple[Tooth, int]) -> tuple[Tooth, int]:
         """A flank as the first mesh counts teeth and flanks, from how the first (0) or the second (1) counts them."""
         tooth, side = flank
         if mesh == 0:

@@ -110,10 +110,14 @@ def meshed_unknowns(model: Model, name: str) -> int | None:
     return given.unknowns_of(name, model.pair, model.resolution.element)
 
 
+# Numbers of a contact operator for each one between normal forces, with friction.
+OF_FRICTION = 6.0
+
+
 def operator_bytes(model: Model, contact: Contact) -> float:
     """Of the contact operators: between normal forces, or with friction between forces of both kinds and those of the
     step before."""
-    kinds = 6.0 if model.scene.friction is not None else 1.0
+    kinds = OF_FRICTION if model.scene.friction is not None else 1.0
     return BYTES_OF_A_NUMBER * contact.positions * contact.squares * kinds
 
 

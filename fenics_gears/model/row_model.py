@@ -109,7 +109,7 @@ class RowModel(OfMeshes):
 
     @property
     def frictions(self) -> list[float]:
-        """The coefficient of each mesh by the largest one; 1 without friction."""
+        """The coefficient of each mesh by the largest one, 0 of one without; 1 where no mesh has friction."""
         return [model.friction_coefficient / self.friction if self.friction else 1.0 for model in self.models]
 
     @property
@@ -146,7 +146,9 @@ class RowModel(OfMeshes):
     @cached_property
     def vibrations(self) -> list[Vibration]:
         """The elastic modes with one tooth pair in each mesh, about; empty without inertia."""
-        return vibrations(self.drivetrain, self.mesh_stiffness, self.models[0].scene.friction is not None)
+        frictional = [model.scene.friction is not None for model in self.models]
+        across = np.repeat(frictional, len(self.drivetrain.mesh.across) // len(frictional))
+        return vibrations(self.drivetrain, self.mesh_stiffness, across)
 
     @property
     def time_scales(self) -> TimeScales:

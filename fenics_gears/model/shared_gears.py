@@ -4,16 +4,18 @@ meshes must have alike."""
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from itertools import combinations
+from itertools import combinations, permutations, product
 from math import ceil, floor, isclose
 
 import numpy as np
 
+from fenics_gears.contact.tooth_pair import COAST, DRIVE
 from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.gear_train import Layout, SharedGear
 from fenics_gears.inputs.problem import NOTHING_DONE
 from fenics_gears.inputs.tree import GEARS
+from fenics_gears.scene.planetary_run_out import of_flanks
 
 from .model import Model
 
@@ -33,23 +35,32 @@ def reach_of(models: Sequence[Model], layout: Layout, gear: int) -> Reach:
     """Between which teeth of a gear of several meshes compliance is needed: on its flanks of each mesh, and from one to
     another."""
     teeth = layout.gear(gear).tooth_count
-    same = max(models[mesh].touching.reach.same for mesh, _ in layout.graph.sides[gear])
-    found: list[Reach] = []
+    over_face = models[0].scene.three_dimensional
+    of_meshes = [models[mesh].touching.reach for mesh, _ in layout.graph.sides[gear]]
+    same = max(each.same for each in of_meshes)
+    own = _hull(each.across for each in of_meshes)
+    found = [Reach(same, own, None, own if over_face else None)]
     for shared in couplings(layout, gear):
-        least, most = _between(models, layout, shared)
-        most = min(most, least + teeth - 1)
-        round_about = teeth * round(0.5 * (least + most) / teeth)
-        least, most = least - round_about, most - round_about
-        if shared.mirrored:
-            found.append(Reach(same, (least, most)))
-            continue
-        # Round the gear no tooth is further than half of them.
-        farthest = min(max(abs(least), abs(most)), teeth // 2)
-        if models[0].scene.three_dimensional:
-            found.append(Reach(same, None, (max(least, -most, 0), farthest)))
-        else:
-            found.append(Reach(max(same, farthest)))
+        for flanks in product(*(_loaded(models[mesh]) for mesh in shared.meshes)):
+            opposite, least, most = _between(models, layout, shared, flanks)
+            most = min(most, least + teeth - 1)
+            round_about = teeth * round(0.5 * (least + most) / teeth)
+            least, most = least - round_about, most - round_about
+            if opposite:
+                found.append(Reach(same, (least, most)))
+                continue
+            # Round the gear no tooth is further than half of them.
+            farthest = min(max(abs(least), abs(most)), teeth // 2)
+            if over_face:
+                found.append(Reach(same, None, (max(least, -most, 0), farthest)))
+            else:
+                found.append(Reach(max(same, farthest)))
     return _joined(found, teeth)
+
+
+def _loaded(model: Model) -> tuple[int, ...]:
+    """Which flanks of its gears a mesh loads."""
+    return (DRIVE,) if model.touching.coast is None else (DRIVE, COAST)
 
 
 def reach_of_alike(models: Sequence[Model], layout: Layout, gear: int, likes: Sequence[int | None]) -> Reach:
@@ -70,7 +81,8 @@ def _joined(reaches: Sequence[Reach], teeth: int) -> Reach:
     across = _hull(reach.across for reach in reaches)
     if across is not None:
         across = across[0], min(across[1], across[0] + teeth - 1)
-    return Reach(same, across, _hull(reach.far for reach in reaches))
+    far, own = (_hull(getattr(reach, name) for reach in reaches) for name in ("far", "own"))
+    return Reach(same, across, far, own)
 
 
 def _hull(ranges: Iterable[tuple[int, int] | None]) -> tuple[int, int] | None:
@@ -79,24 +91,34 @@ def _hull(ranges: Iterable[tuple[int, int] | None]) -> tuple[int, int] | None:
     return (min(each[0] for each in known), max(each[1] for each in known)) if known else None
 
 
-def _between(models: Sequence[Model], layout: Layout, shared: SharedGear) -> tuple[int, int]:
-    """Least and largest number of pitches by which a tooth of the first mesh of a shared gear is ahead of one of the
-    second that touches at the same time: on opposite flanks as `Reach.across` counts them."""
-    first, other = (_indices(models[mesh], layout.phases[mesh]) for mesh in shared.meshes)
-    least = ceil(first[0] - other[1] - PHASE_ROUND_OFF)
-    most = floor(first[1] - other[0] + PHASE_ROUND_OFF)
-    if shared.sides[0]:
+def _between(
+    models: Sequence[Model], layout: Layout, shared: SharedGear, flanks: tuple[int, int]
+) -> tuple[bool, int, int]:
+    """Of such flanks of the first mesh of a shared gear and of the second that touch at the same time whether they are
+    opposite ones, and the least and largest number of pitches by which the tooth of the first is ahead: of opposite
+    ones as `Reach.across` counts them."""
+    first, other = (
+        _teeth(models[mesh], layout.phases[mesh], side, flank)
+        for mesh, side, flank in zip(shared.meshes, shared.sides, flanks)
+    )
+    counted = [shared.flank(1, (each, flanks[1])) for each in other]
+    flank = counted[0][1]
+    least = ceil(first[0] - max(tooth for tooth, _ in counted) - PHASE_ROUND_OFF)
+    most = floor(first[1] - min(tooth for tooth, _ in counted) + PHASE_ROUND_OFF)
+    if flank != flanks[0] == COAST:
         least, most = -most, -least
-    return least - shared.tooth, most - shared.tooth
+    return flank != flanks[0], least, most
 
 
-def _indices(model: Model, phase: float) -> tuple[float, float]:
-    """Between which numbers, less the mesh cycles since the run began, a pair's index is while it touches."""
+def _teeth(model: Model, phase: float, side: int, flank: int) -> tuple[float, float]:
+    """Between which numbers, as of `Place.teeth` and beyond the mesh cycles since the run began, the tooth is of a
+    gear's flank while it touches."""
     steps = model.touching.steps
-    first, last = model.touching.drive
+    first, last = model.touching.drive if flank == DRIVE else model.touching.coast
     # Pairs touch between steps too, which is less than one at either end of either mesh; with friction one mesh is
     # looked at a step before the other one.
-    return (first - 1.5) / steps - phase, (last + 1.5) / steps - phase
+    ends = (first - 1.5) / steps - phase, (last + 1.5) / steps - phase
+    return (flank - ends[1], flank - ends[0]) if side else ends
 
 
 def check_shared(layout: Layout, models: Sequence[Model], gears: Sequence[str], meshes: Sequence[str]) -> None:
@@ -104,7 +126,10 @@ def check_shared(layout: Layout, models: Sequence[Model], gears: Sequence[str], 
     `meshes`."""
     for gear in layout.graph.shared:
         sides = layout.graph.sides[gear]
-        _check_alike(models, gears[gear], [(mesh, side, meshes[mesh]) for mesh, side in sides])
+        named = [(mesh, side, meshes[mesh]) for mesh, side in sides]
+        _check_alike(models, gears[gear], named)
+        for one, other in permutations(named, 2):
+            _check_coast_flanks(models, gears[gear], one, other)
 
 
 def _check_alike(models: Sequence[Model], gear: str, sides: Sequence[tuple[int, int, str]]) -> None:
@@ -139,6 +164,25 @@ def _check_alike(models: Sequence[Model], gear: str, sides: Sequence[tuple[int, 
                 f"{gear}: {name} and {other_name} load the same flanks of it, but have other lead modifications of it."
                 f" Allowed: the same lead_modifications.{GEARS[side]} in both. {NOTHING_DONE}"
             )
+
+
+def _check_coast_flanks(
+    models: Sequence[Model], gear: str, one: tuple[int, int, str], other: tuple[int, int, str]
+) -> None:
+    """Raise SceneError where coast flanks, which have their nominal shape, are the drive flanks of another mesh, which
+    have not. As of `_check_alike`."""
+    (coasting, side, name), (driving, other_side, other_name) = one, other
+    if side == other_side or models[coasting].touching.coast is None:
+        return
+    model = models[driving]
+    errors = model.scene.flank_errors
+    own_errors = errors is not None and of_flanks(errors.of_gears[other_side])
+    if own_errors or model.removal[other_side] is not None or _lead(model, other_side) is not None:
+        raise SceneError(
+            f"{gear}: its coast flanks in {name} are its drive flanks in {other_name}, where they have modifications or"
+            f" errors; coast flanks are computed without. Allowed: no coast_flanks in {name}, or in {other_name} no"
+            f" reliefs, lead modifications and flank errors but pitches of this gear. {NOTHING_DONE}"
+        )
 
 
 def _lead(model: Model, side: int) -> object:

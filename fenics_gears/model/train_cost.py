@@ -7,7 +7,7 @@ from dataclasses import replace
 from fenics_gears.scene.data import Accuracy
 
 from .cost import expected_cost, refused, settings_that_fit, too_large
-from .cost_parts import CONDENSING_PROGRAM, ExpectedCost
+from .cost_parts import CONDENSING_PROGRAM, OF_FRICTION, ExpectedCost
 from .row_model import RowModel
 from .train import TrainModel, together
 
@@ -32,10 +32,12 @@ def row_cost(row: RowModel) -> ExpectedCost:
     costs = [expected_cost(each) for each in row.models]
     if row.single:
         return costs[0]
-    together = WITH_FACTORS * sum(each.operators**0.5 for each in costs) ** 2
+    # Beside meshes with friction one without has as many rows as they have.
+    more = [OF_FRICTION if row.friction and each.scene.friction is None else 1.0 for each in row.models]
+    together = WITH_FACTORS * sum((times * each.operators) ** 0.5 for times, each in zip(more, costs)) ** 2
     # Meshes that are like others share their operators. Over the face they are solved one by one without friction.
     own = sum(each.operators for each, mesh in zip(costs, row.meshes) if mesh.like is None)
-    alone = row.over_face and row.models[0].scene.friction is None
+    alone = row.over_face and not row.friction
     operators = own + (0.0 if row.passes_once or alone else together)
     # Gears are condensed one after the other.
     passing = max(each.passing for each in costs)

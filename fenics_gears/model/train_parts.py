@@ -213,10 +213,3 @@ def check_alike(meshes: Sequence[MeshOfScene], models: Sequence[Model]) -> None:
             f"accuracy.target: {bare} has another than {meshes[0].name}, which moves together with it. Allowed: one"
             f" target for all of them, [accuracy] for the whole train. {NOTHING_DONE}"
         )
-    frictional = [model.scene.friction is not None for model in models]
-    if any(frictional) and not all(frictional):
-        bare = next(mesh.name for mesh, own in zip(meshes, frictional) if not own)
-        raise SceneError(
-            f"friction: {bare} has none, beside meshes with friction that move together with it. Allowed: a coefficient"
-            f" or a formula for each of them, or [friction] for the whole train. {NOTHING_DONE}"
-        )

@@ -109,7 +109,7 @@ def result_of_set(row: RowModel, carrier: Carrier, states: np.ndarray, meshes: S
     }
     if carrier.moving:
         numbers["floating"] = " ".join(carrier.moving)
-    if row.models[0].scene.friction is not None:
+    if row.friction:
         numbers |= _efficiencies(carrier, torques[last].mean(axis=0))
     return ResultOfShafts(variables, coordinates, numbers)
 

@@ -47,7 +47,7 @@ class RowResult:
             recorder.take(own)
         if self._row.bent is not None or self._row.shafts.carrier is not None:
             self._states.append(solved.states[:, 0])
-        if self._row.models[0].scene.friction is None:
+        if not self._row.friction:
             return
         together = solved if self._last is None else self._last.followed_by(solved)
         equations = self._row.equations_of_motion
@@ -76,7 +76,7 @@ class RowResult:
             # All of them took that march.
             seconds = (0.0 if found else march.seconds, 0.0)
             found.append(MeshResult(mesh.name, own, numbers, said, seconds))
-        if self._row.models[0].scene.friction is not None and not march.locked:
+        if self._row.friction and not march.locked:
             found[-1].numbers["friction_loss"] = self._friction_loss()
         if self._states:
             found[0] = replace(found[0], shafts=self._of_shafts(np.concatenate(self._states)))
@@ -103,18 +103,20 @@ class RowResult:
         """Loss of contact in all meshes, which has no meaning where gears turn through a mesh's backlash meanwhile."""
         if not march.separations:
             return []
-        lost = f"no flanks touch in any mesh in {len(march.separations)} of {march.steps} steps"
+        coast = recorder.cycle.coast_flanks
+        lost = (
+            f"no {'drive ' if coast else ''}flanks touch in any mesh in {len(march.separations)} of {march.steps} steps"
+        )
         first = march.steps - self._row.recorded if self._row.recorded else 0
         # The smallest opening of all meshes: each is open by as much.
         widest = max((opening for step, opening in march.separations if step >= first), default=0.0)
         # Of gears without backlash a number of round-off.
         backlash = max(round(recorder.cycle.pair.backlash, 9), 0.0)
-        if widest <= backlash:
+        if widest <= backlash or coast:
             return [lost]
         return [
             f"{NO_MEANING}: {lost}, and they come {widest * 1e3:.4g} um apart. That is more than the backlash of"
-            f" {backlash * 1e3:.4g} um: the coast flanks would touch, which meshes that are computed"
-            " together do not have"
+            f" {backlash * 1e3:.4g} um: the coast flanks would touch, which this scene does not have"
         ]
 
     def _numbers(self, recorder: Recorder) -> dict[str, Any]:

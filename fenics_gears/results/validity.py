@@ -96,7 +96,7 @@ def warnings_of(recorder: Recorder, march: March, result: RunResult) -> list[str
     for along in recorder.along_face:
         of_mesh += along.warnings(result.dataset)
     return [
-        *of_mesh, *_wedged(cycle, result), *_separation(cycle, drivetrain, march, clock, result),
+        *of_mesh, *_separation(cycle, drivetrain, march, clock, result),
         *locking(cycle, march), *_uniqueness(march),
     ]  # fmt: skip
 
@@ -107,7 +107,7 @@ def warnings_of_mesh(recorder: Recorder, numbers: Mapping[str, Any]) -> list[str
     curves = recorder.arrays
     watched = recorder.watched
     of_flanks = [*_window(cycle, watched), *_rank(watched)] if cycle.traits.nodes_on_flanks and recorder.steps else []
-    said = [*_passed_through(cycle, curves), *of_flanks, *_rotation(curves)]
+    said = [*_passed_through(cycle, curves), *of_flanks, *_rotation(curves), *_wedged(cycle, curves)]
     if cycle.traits.has_pressure and recorder.steps:
         said += warnings_of_pressure(recorder.model.scene, watched, numbers)
     return said
@@ -167,17 +167,17 @@ def _rotation(curves: Watched) -> list[str]:
     return sentences
 
 
-def _wedged(cycle: Cycle, result: RunResult) -> list[str]:
+def _wedged(cycle: Cycle, curves: Watched) -> list[str]:
     if not cycle.coast_flanks:
         return []
-    coast = result["coast_normal_force"]
-    both = wedged(result)
+    coast = curves["coast_normal_force"]
+    both = wedged(curves)
     if not both.any():
         return []
     return [
         f"the teeth are wedged in {both.sum()} of {len(both)} steps: drive and coast flanks press at once, the coast"
         f" flanks by up to {coast[both].max():.4g} N, since there is less backlash"
-        f" ({max(cycle.pair.backlash * 1e3, 0.0):.3f} um) than the gears need: raise gears.centre_distance"
+        f" ({max(cycle.pair.backlash * 1e3, 0.0):.3f} um) than the gears need: raise their centre_distance"
     ]
 
 

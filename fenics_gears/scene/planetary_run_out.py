@@ -89,7 +89,7 @@ def _errors_seen(listed: Sequence[tuple[SharedGear, GearErrors]], side: Side) ->
         if own.pitch is not None:
             pitch = own.pitch
             first = begins
-        if not shared.mirrored and _of_flanks(own):
+        if not shared.mirrored and of_flanks(own):
             here = shared.meshes[0] == shared.meshes[1]
             found = own if here else counted_from(own, begins, side.gear.tooth_count, side.turn)
     return replace(found, pitch=pitch, first=first)
@@ -163,7 +163,7 @@ def _check_said_once(
     side = meshes[number].gears.index(name)
     for (gear, other), errors in known.items():
         same = meshes[other].gears.index(gear) == side
-        flanks_too = same and _of_flanks(own) and _of_flanks(errors)
+        flanks_too = same and of_flanks(own) and of_flanks(errors)
         if gear == name and (flanks_too or None not in (own.pitch, errors.pitch)):
             raise SceneError(f"{place} flank errors in two stages. Allowed: in one of them. {NOTHING_DONE}")
     # Between the mean of the active profile, or its ends, a deviation is another where that begins elsewhere.
@@ -178,7 +178,7 @@ def _check_said_once(
         )
 
 
-def _of_flanks(own: GearErrors) -> bool:
+def of_flanks(own: GearErrors) -> bool:
     """Whether there are errors that are no pitch errors."""
     return replace(own, pitch=None) != GearErrors()
 

@@ -23,11 +23,12 @@ ENDS = ("load", "motion")
 # gears. Others are of a pair alone so far.
 SHARED = ("friction", "accuracy", "inertia", "bearings")
 OVER_THE_FACE = ("lead_modifications", "misalignment")
-OF_A_ROW = (*SHARED, "tip_relief", "root_relief", "profile_modifications", "corner_contact", *OVER_THE_FACE)
+ON_FLANKS = ("corner_contact", "coast_flanks")
+OF_A_ROW = (*SHARED, "tip_relief", "root_relief", "profile_modifications", *ON_FLANKS, *OVER_THE_FACE)
 RUN_OUT = "eccentricity"
 # Of single gears: of a pair by `pinion` and `wheel`, of a row by their numbers.
 OF_GEARS = ("flank_errors", RUN_OUT)
-OF_A_STAGE = (*OF_A_ROW, "coast_flanks", "body_meshes", "wheel_points", *OF_GEARS)
+OF_A_STAGE = (*OF_A_ROW, "body_meshes", "wheel_points", *OF_GEARS)
 OF_A_PAIR = ("shafts", "damping", "torque_ripple", "speed_ramp")
 OF_A_TRAIN = ("title", "stages", "load", "motion", *SHARED, "shafts", "damping", "speed_ramp")
 MOST_STAGES = 20

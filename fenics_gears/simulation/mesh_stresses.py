@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 import xarray as xr
 
-from fenics_gears.contact.tooth_pair import DRIVE
 from fenics_gears.elasticity.cache import user_cache
 from fenics_gears.elasticity.recovery import GearRecovery, gear_recovery
 from fenics_gears.geometry.outline import centreline_mirror
@@ -53,17 +54,18 @@ class MeshStresses(RunStresses):
     def forces(self, gear: int, stored: StoredForces) -> dict[int, np.ndarray]:
         recovery = self.recoveries[gear]
         name = self.row.graph.gears[self.number][gear]
-        own = [((tooth, DRIVE), force) for tooth, force in super().forces(gear, stored).items()]
+        own = list(_by_flank(super().forces(gear, stored)))
         for mesh, side in self.row.graph.sides[name]:
             if mesh != self.number:
                 shared = self.row.layout.shared(name, self.number, mesh)
                 theirs = self._stored(mesh, stored.index).on_flanks(self.row.models[mesh], side, recovery.heights)
-                own += [(shared.flank(1, (tooth, DRIVE)), force) for tooth, force in theirs.items()]
+                for place, force in _by_flank(theirs):
+                    seen = _mirrored(force, recovery) if shared.mirrored else force
+                    own.append((shared.flank(1, place), seen))
         flanks = 1 + max((flank for (_, flank), _ in own), default=0)
         found: dict[int, np.ndarray] = {}
         for (tooth, flank), force in own:
-            total = found.setdefault(tooth, np.zeros((flanks, *force.shape[1:])))
-            total[flank] += _mirrored(force[0], recovery) if flank else force[0]
+            found.setdefault(tooth, np.zeros((flanks, *force.shape)))[flank] += force
         return found
 
     def _stored(self, mesh: int, index: int) -> StoredForces:
@@ -74,7 +76,14 @@ class MeshStresses(RunStresses):
         return stored_forces(run, self.row.models[mesh], self.cycles[mesh], same)
 
 
+def _by_flank(forces: dict[int, np.ndarray]) -> Iterator[tuple[tuple[int, int], np.ndarray]]:
+    """Tooth and kind of each flank, and forces (h, f components) on it, of those that `flank_forces` gives."""
+    for tooth, of_tooth in forces.items():
+        for flank, force in enumerate(of_tooth):
+            yield (tooth, flank), force
+
+
 def _mirrored(force: np.ndarray, recovery: GearRecovery) -> np.ndarray:
-    """Forces (h, f components) on a coast flank from those of the mirror image, in which it is a drive flank."""
+    """Forces (h, f components) on a flank from those on its mirror image."""
     mirror = centreline_mirror(recovery.gear, recovery.sector.components)
     return (force.reshape(*force.shape[:-1], -1, len(mirror)) @ mirror.T).reshape(force.shape)

@@ -26,14 +26,18 @@ class SharedBody:
     def in_mesh(self, row: RowModel, gear: int, mesh: int) -> Body:
         """The gear of this number as one of its meshes loads it."""
         own = next(each for each in _meshes_of(row, gear) if each.number == mesh)
-        return Body.of(self.section, self.solid.flanks[own.kind])
+        section, solid = self.section, self.solid.flanks[own.kind]
+        if row.models[mesh].touching.coast is None:
+            section = FlankCompliance(section.roll_angle, section.element_order, section.blocks, section.timings)
+            solid = solid.of_drive_flanks
+        return Body.of(section, solid)
 
 
 def shared_body(row: RowModel, number: int, cache: Cache) -> SharedBody:
     """A gear of several meshes, by its number."""
     gear, material, division, reach = row.key_of_shared(number)
     # A web is in the body; in its sections it would be twice.
-    fine = flank_compliance(replace(gear, web=None), material, division, Reach(reach.same), cache)
+    fine = flank_compliance(replace(gear, web=None), material, division, Reach(reach.same, reach.own), cache)
     return SharedBody(fine, shared_compliance(gear, material, row.solid_discretisation_of(number), reach, cache))
 
 

@@ -41,7 +41,7 @@ def can_be_solved_together(model: Model | TrainModel, asked: Collection[str]) ->
     if not isinstance(model, Model):
         row = model.rows[0]
         by_itself = len(model.rows) == 1 and row.shafts.carrier is not None and set(asked) == OF_SETS
-        steady = row.drivetrain.mass is None and row.models[0].scene.friction is None
+        steady = row.drivetrain.mass is None and not row.friction
         deviations = (each for own in row.models for each in deviations_of(own))
         return by_itself and steady and not row.over_face and all(hasattr(each, "of_runs") for each in deviations)
     scene = model.scene

@@ -11,6 +11,7 @@ import numpy as np
 
 from fenics_gears.contact.cycle_alike import CycleAlike
 from fenics_gears.contact.joined_meshes import JoinedMeshes
+from fenics_gears.contact.laws import OPEN, SLIP_FORWARD
 from fenics_gears.contact.mesh import Mesh, step_by_step
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.row import JoinedPosition, MeshOfRow, RowCycle, at_phase
@@ -171,13 +172,15 @@ def of_mesh(steps: Steps, cycle: RowCycle, number: int) -> Steps:
     nodes = np.repeat(steps.starts[:-1] + ahead - (np.cumsum(counts) - counts), counts) + np.arange(counts.sum())
     forces = nodes
     if steps.kinds == 2:
+        # Of a mesh without friction what its tangential forces would be is left out.
         normal = nodes + np.repeat(steps.starts[:-1], counts)
         both = np.concatenate([normal, normal + np.repeat(np.diff(steps.starts), counts)])
-        forces = step_by_step(both, np.cumsum(counts) - counts, counts)
+        forces = step_by_step(both, np.cumsum(counts) - counts, counts) if mesh.friction else normal
     states = steps.states @ mesh.coordinates.T
     own_forces = steps.forces[forces]
     displacement = steps.displacement[forces]
-    if mesh.friction != 1.0:
+    kinds = steps.kinds if mesh.friction else 1
+    if mesh.friction not in (0.0, 1.0):
         units = step_by_step(np.repeat([1.0, mesh.friction], counts.sum()), np.cumsum(counts) - counts, counts)
         own_forces *= units
         displacement /= units
@@ -186,9 +189,11 @@ def of_mesh(steps: Steps, cycle: RowCycle, number: int) -> Steps:
         states[:, 0] += mesh.offset
         ends = np.cumsum(counts)
         for position, end, count in zip(positions, ends, counts):
-            start = steps.kinds * (end - count)
+            start = kinds * (end - count)
             displacement[start : start + count] += position.operator.jacobian[:count] @ mesh.offset
+    status = steps.status[nodes]
+    if not mesh.friction:
+        status[status != OPEN] = SLIP_FORWARD
     return Steps(
-        steps.numbers, positions, states, own_forces, displacement, steps.status[nodes], steps.iterations,
-        steps.methods,
+        steps.numbers, positions, states, own_forces, displacement, status, steps.iterations, steps.methods
     )  # fmt: skip

@@ -5,8 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from tests.planets import planetary
-from tests.trains import row
+from tests.trains import COARSE, gear_text, helical_row, mate, row
 
+from fenics_gears import SceneError, train_from_text
 from fenics_gears.dynamics.stepping import Stepper
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.model.train import train_model_of
@@ -14,6 +15,8 @@ from fenics_gears.simulation.train import row_cycle
 from fenics_gears.system.progress import SilentProgress
 
 FRICTION = "[friction]\ncoefficient = 0.1"
+COAST = "[stages.{}.coast_flanks]\n"
+STEPS = np.array([3.0, 5.75, 10.0, 14.5, 17.25])
 
 
 @pytest.fixture(scope="module")
@@ -27,15 +30,25 @@ def cycle_of(tmp_path_factory):
     return made
 
 
+def positions_at_rest(model, cycle, steps, sense: float = 1.0) -> np.ndarray:
+    """Coordinates (steps, k) at rest at places between steps, each by itself; `sense` -1: the load drives."""
+    equations = model.equations_of_motion
+    drivetrain = replace(equations.drivetrain, load=sense * equations.drivetrain.load)
+    stepper = Stepper(cycle, replace(equations, drivetrain=drivetrain))
+    return np.array([stepper.in_balance(step, cycle.between(step, step - 1)).state.position for step in steps])
+
+
 def overall_errors(model, cycle, steps) -> np.ndarray:
-    """Transmission error (rad of the last shaft) at rest at places between steps, each by itself."""
-    stepper = Stepper(cycle, model.equations_of_motion)
-    found = []
-    for step in steps:
-        position = cycle.between(step, step - 1)
-        record = stepper.in_balance(step, position)
-        found.append(float(model.drivetrain.angle @ record.state.position))
-    return np.array(found)
+    """Transmission error (rad of the last shaft) at the same places."""
+    return positions_at_rest(model, cycle, steps) @ model.drivetrain.angle
+
+
+def mirrored_steps(model, cycle, steps) -> np.ndarray:
+    """Where the coast flanks of the first mesh touch as its drive flanks do at such steps of the mirrored train."""
+    pair = model.models[0].pair
+    # The coast flank of the pinion's tooth at xi on the drive flanks' line stands at this less xi on its own.
+    whole = 2.0 * pair.pinion.base_radius * (pair.operating_pressure_angle + pair.pinion.tooth_half_angle_at_base)
+    return cycle.steps * (((whole - 2.0 * pair.path_start) / pair.base_pitch - steps / cycle.steps) % 1.0)
 
 
 def test_a_train_driven_from_its_other_end_has_the_same_transmission_error(cycle_of):
@@ -52,9 +65,77 @@ def test_a_train_driven_from_its_other_end_has_the_same_transmission_error(cycle
     assert driving == pytest.approx(driven, rel=1e-10)
 
 
+@pytest.mark.parametrize(
+    ("teeth", "first", "second", "loads"),
+    [
+        ((24, 31, 40), (60.0, "82.5 mm"), ("wheel", -20.0, "106.75 mm"), "output_torque"),
+        ((25, 31, 40), (0.0, "84 mm"), ("pinion", 155.0, "97.75 mm"), "torques"),
+    ],
+)
+def test_a_train_on_its_coast_flanks_is_its_mirror_image(cycle_of, teeth, first, second, loads):
+    """Exact symmetry: mirrored, a train driven from its load is the train driven forwards, of an idler and of a gear
+    that drives two mates. Each mesh turns by its backlash more, here the second: the play of a mesh does not move
+    the phase of those behind it."""
+
+    def train(sense):
+        (angle, distance), (shared, other_angle, other_distance) = first, second
+        one, two, three = (gear_text(each, 3.0) for each in teeth)
+        text = mate("a", one, two, sense * angle, 3.0, f'centre_distance = "{distance}"')
+        text += mate("b", f'"a.{shared}"', three, sense * other_angle, 3.0, f'centre_distance = "{other_distance}"')
+        both = '[{ on = "a.wheel", torque = "200 N m" }, { on = "b.wheel", torque = "300 N m" }]'
+        load = f"[load]\n{loads} = {both if loads == 'torques' else chr(34) + '300 N m' + chr(34)}\n"
+        return cycle_of(train_from_text(f"{text}{COAST.format('a')}{COAST.format('b')}{load}[accuracy]\n{COARSE}\n"))
+
+    def errors(train, steps, sense):
+        model, cycle = train
+        found = positions_at_rest(model, cycle, steps, sense)
+        each = zip(model.models, cycle.meshes)
+        return np.array([[own.transmission_error(mesh.coordinates @ at) for at in found] for own, mesh in each])
+
+    coasting, mirrored = train(1.0), train(-1.0)
+    pairs = [own.pair for own in coasting[0].models]
+    play = np.array([pair.backlash / abs(pair.wheel.base_radius) for pair in pairs])
+    assert play[1] > 1e-3 and play[0] < 1e-12
+    driven = errors(mirrored, mirrored_steps(*mirrored, STEPS), 1.0)
+    found = errors(coasting, STEPS, -1.0)
+    assert np.abs(found + driven + play[:, None]).max() < 1e-10 * np.abs(driven).max()
+
+
+def test_coast_flanks_of_one_mesh_alone(cycle_of):
+    """An idler with coast flanks in one of its meshes: what that mesh feels, of itself and of the other one, is what it
+    feels in the row that has them in both, to the last digit. The elements of the last gear differ."""
+    two_pairs = mate("a", gear_text(24, 3.0), gear_text(31, 3.0), 0.0, 3.0)
+    two_pairs += mate("b", '"a.wheel"', gear_text(40, 3.0), 60.0, 3.0)
+    load = f'[load]\noutput_torque = "300 N m"\n[accuracy]\n{COARSE}\n'
+    (_, whole), (_, part) = (
+        cycle_of(train_from_text(f"{two_pairs}{coast}{load}{FRICTION}"))
+        for coast in (COAST.format("a") + COAST.format("b"), COAST.format("a"))
+    )
+    for step in (0, 7):
+        expected, found = felt_by_the_first(whole, part, step)
+        assert np.array_equal(found, expected)
+
+
+def felt_by_the_first(whole, part, step: int) -> tuple[np.ndarray, np.ndarray]:
+    """Rows of the first mesh of two trains of two meshes, of which the second one has no coast flanks in its second
+    mesh: with friction the compliance by forces on the nodes that it has."""
+    operators = [cycle.position(step).operator for cycle in (whole, part)]
+    first = whole.meshes[0].cycle.position(step).operator.nodes
+    on_coast = np.concatenate([[pair.place.flank == 1] * len(pair.offsets) for pair in operators[0].pairs])
+    left = np.flatnonzero(~on_coast | (np.arange(len(on_coast)) < first))
+    assert len(left) == operators[1].nodes < len(on_coast)
+    numbers = left, np.arange(len(left))
+    both = [(each.compliance, each.nodes, own) for each, own in zip(operators, numbers)]
+    of_whole, of_part = (
+        matrix[np.ix_([*range(first), *range(nodes, nodes + first)], [*own, *(nodes + own)])]
+        for matrix, nodes, own in both
+    )
+    return of_whole, of_part
+
+
 def test_compliance_of_a_train_is_symmetric_and_positive(cycle_of):
     """Betti between the flanks of any meshes; springs store energy under any forces."""
-    _, cycle = cycle_of(row([24, 31, 40, 25], [0, 60, 20], 300, more=FRICTION))
+    _, cycle = cycle_of(row([24, 31, 40, 25], [0, 60, 20], 300, more=COAST.format("row") + FRICTION))
     for step in (0, 7, 19):
         compliance = cycle.position(step).operator.compliance
         assert np.array_equal(compliance, compliance.T)
@@ -96,3 +177,19 @@ def test_operators_that_planets_share_are_those_of_each_by_itself(cycle_of, tmp_
             values, of_each = (getattr(operator, name) for operator in (found, expected))
             assert np.abs(values - of_each).max() < 1e-10 * np.abs(of_each).max(), name
         assert [pair.place.index for pair in found.pairs] == [pair.place.index for pair in expected.pairs]
+
+
+@pytest.mark.parametrize(
+    "shaped",
+    [
+        'tip_relief = { depth = "10 um", start = "HPSTC" }\n',
+        f"[stages.row.flank_errors.2]\nprofile_slope = {31 * ['4 um']}\n",
+        '[stages.row.lead_modifications.pinion]\ncrowning = "5 um"\n',
+    ],
+)
+def test_coast_flanks_that_are_drive_flanks_of_another_mesh_have_no_modifications(shaped):
+    """Physics: one flank cannot have two shapes. Without them all is computed."""
+    text = helical_row([24, 31, 40], [0, 60], 300, more=f"{shaped}{COAST.format('row')}").text
+    with pytest.raises(SceneError, match=r"row.2: its coast flanks in row: gears .* are its drive flanks"):
+        train_model_of(train_from_text(text))
+    train_model_of(train_from_text(text.replace(shaped, "")))

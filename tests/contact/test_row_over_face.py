@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
-from tests.contact.test_row import overall_errors
-from tests.trains import helical_row
+from tests.contact.test_row import COAST, felt_by_the_first, mirrored_steps, overall_errors, positions_at_rest
+from tests.trains import gear_text, helical_row, mate
 
 from fenics_gears import ComputationError, train_from_text
 from fenics_gears.contact.gear_over_face import GearOverFace, MeshOfGear
@@ -65,10 +65,35 @@ def test_a_train_driven_from_its_other_end_has_the_same_transmission_error(cycle
     assert driving == pytest.approx(driven, rel=2e-7)
 
 
+def test_a_train_on_its_coast_flanks_is_itself_turned_over(cycle_of):
+    """Exact symmetry: driven from its load and turned over about its line of centres a helical train is the train
+    driven forwards, with teeth of the same hand. Both leave out the same motions of the idler."""
+    coast = COAST.format("row")
+    coasting, turned = (cycle_of(helical_row([24, 31, 40], [0, sense * 60], 300, more=coast)) for sense in (1.0, -1.0))
+    driven = overall_errors(*turned, mirrored_steps(*turned, STEPS))
+    found = positions_at_rest(*coasting, STEPS, -1.0) @ coasting[0].drivetrain.angle
+    assert found == pytest.approx(-driven, rel=1e-10)
+
+
+def test_coast_flanks_of_one_mesh_alone(cycle_of):
+    """As in the plane, but for the joint motions that flanks feel of each other, known to 1e-8 of the largest."""
+    stages = [mate(*each, module=3.0, more='helix_angle = "15 deg"') for each in (
+        ("a", gear_text(24, 3.0), gear_text(31, 3.0), 0.0), ("b", '"a.wheel"', gear_text(40, 3.0), 60.0),
+    )]  # fmt: skip
+    coarse = 'slices = 4\nlayers = 2\nbody_element_size = "4 mm"\nsteps_per_mesh_cycle = 12\n'
+    load = f'[load]\noutput_torque = "300 N m"\n[accuracy]\n{coarse}flank_element_size = "0.2 mm"\n[friction]\n'
+    (_, whole), (_, part) = (
+        cycle_of(train_from_text("".join(stages) + coast + load + "coefficient = 0.1\n"))
+        for coast in (COAST.format("a") + COAST.format("b"), COAST.format("a"))
+    )
+    expected, found = felt_by_the_first(whole, part, 5)
+    assert np.abs(found - expected).max() < 1e-8 * np.abs(expected).max()
+
+
 def test_compliance_is_symmetric_and_positive_and_of_pairs(cycle_of):
     """Betti between the flanks of any meshes; springs store energy under any forces; each mesh by itself has the
     compliance of its pair; meshes without a common gear do not feel each other."""
-    _, cycle = cycle_of(helical_row([24, 31, 24, 31], [0, 60, 20], 300, more=FRICTION))
+    _, cycle = cycle_of(helical_row([24, 31, 24, 31], [0, 60, 20], 300, more=FRICTION + COAST.format("row")))
     for step in (0, 7):
         compliance = cycle.position(step).operator.compliance
         largest = np.abs(compliance).max()

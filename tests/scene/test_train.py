@@ -57,7 +57,7 @@ SHAFT = '[shafts.one]\ncarries = ["{}"]\ntorsional_stiffness = "1e8 N mm/rad"'
         ),
         (stage("one", 2.0, (20, 30), "[stages.one.torque_ripple]\nx = 3") + LOAD, "is not yet computed of a stage"),
         (ROW.replace("[load]", "[stages.row.eccentricity]\n[load]"), "says of no gear what it has"),
-        (ROW.replace("[load]", "[stages.row.coast_flanks]\n[load]"), "where a gear has several mates"),
+        (ROW.replace("[load]", "[stages.row.body_meshes]\n[load]"), "where a gear has several mates"),
         (stage("one", 2.0, (20, 30)).replace("teeth = 30", "tooth = 30") + LOAD, "train:7: stages.one.wheel.tooth"),
         (stage("one", 2.0, (20, 30)) + LOAD + "\n[accuracy]\nelements = 3", "accuracy.elements = 3"),
     ],

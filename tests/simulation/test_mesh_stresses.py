@@ -13,6 +13,9 @@ from fenics_gears.simulation.stored_forces import stored_forces
 
 TRAINS = {
     "an idler": lambda: row((24, 31, 40), (0, 60), 300.0),
+    "an idler wedged between its mates": lambda: row(
+        (24, 31, 40), (0, 100), 300.0, more='[stages.row.coast_flanks]\n[bearings]\nstiffness = "5e4 N/mm"\n'
+    ),
     "two mates on one flank": lambda: train_from_text(split_text()),
     "a planetary set": planetary,
 }

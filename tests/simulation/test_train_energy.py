@@ -8,7 +8,19 @@ import pytest
 from tests.planets import in_time
 from tests.simulation.test_train_motion import BEARINGS, FRICTION, INERTIA, motion, shaft
 from tests.simulation.test_train_shafts import all_bent, cut_in
-from tests.trains import COARSE, bent_two_stages, helical_row, row_section, split_text, stage, two_stages
+from tests.trains import (
+    COARSE,
+    COARSE_FACE,
+    bent_two_stages,
+    gear_text,
+    helical_row,
+    mate,
+    row,
+    row_section,
+    split_text,
+    stage,
+    two_stages,
+)
 
 from fenics_gears import train_from_text
 from fenics_gears.dynamics.energy_account import account, quadratic
@@ -35,6 +47,20 @@ def stages_behind_an_idler() -> TrainScene:
     more = MOVING + FRICTION + shaft("middle", '"row.3", "second.pinion"', 1e8) + shaft("end", '"second.wheel"', 2e8)
     load = f'[load]\noutput_torque = "400 N m"\n[accuracy]\n{COARSE}\n'
     return train_from_text(idlers + stage("second", 3.0, (20, 40)) + load + more)
+
+
+def helical_with_friction_in_one() -> TrainScene:
+    first, idler, last = (gear_text(each, 2.0) for each in (24, 31, 40))
+    lean = 'helix_angle = "15 deg"'
+    stages = mate("a", first, idler, 0.0, more=f"{lean}\n[stages.a.friction]\ncoefficient = 0.1")
+    stages += mate("b", '"a.wheel"', last, 60.0, more=lean)
+    return train_from_text(f'{stages}[load]\noutput_torque = "100 N m"\n[accuracy]\n{COARSE_FACE}')
+
+
+def wedged_idler() -> TrainScene:
+    """Its middle gear runs out by more than its teeth have play, so that both of their flanks press in both meshes."""
+    run_out = '[stages.row.eccentricity.2]\ndistance = "15 um"\n[stages.row.coast_flanks]\n'
+    return row([24, 31, 40], [0, 60], 300, more=run_out + MOVING + FRICTION)
 
 
 def clocked_paths() -> TrainScene:
@@ -67,6 +93,9 @@ def set_at_speed() -> TrainScene:
 
 CASES = {
     "helical idler": (helical_idler, 1e9),
+    "an idler wedged between its mates": (wedged_idler, 1e9),
+    "friction in one of two stages": (lambda: two_stages("[stages.first.friction]\ncoefficient = 0.08\n", MOVING), 1e9),
+    "helical, friction in one mesh": (helical_with_friction_in_one, 1e9),
     "stages behind an idler": (stages_behind_an_idler, 1e9),
     "a speed ramp": (lambda: train_from_text(two_stages(more=MOVING + FRICTION + RAMP).text), 1e9),
     "several loads": (several_loads, 1e9),

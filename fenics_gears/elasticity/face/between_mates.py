@@ -12,7 +12,7 @@ with the motions D of the one flank and C of the other, which are the same for a
 import numpy as np
 
 from ..compliance import Reach
-from ..ring import cut_response, sector_response
+from ..ring import cut_response, joined_blocks, sector_response
 
 # Motions are left out that move flanks by less than this part of the largest: the compliance of a flank itself, ten
 # times as large, is not known better from its finite elements.
@@ -24,8 +24,9 @@ def blocks_between_mates(parts: tuple[np.ndarray, np.ndarray, np.ndarray], teeth
     `reach.across` of both flanks, the coast flank's in the mirrored frame.
 
     "blocks_0" and "blocks_1" (same + 1, f, f): of the drive flank and, seen in the mirror, of the coast flank of teeth
-    ahead. "motions_0", "motions_1" (f, r) of drive and coast flanks, and "between_01" and the like (k, r, r') of drive
-    flanks by coast flanks, from the least distance of `reach.between_mates` on.
+    ahead; with `reach.own` "blocks" (m + 1, 2 f, 2 f) of both flanks in their place. "motions_0", "motions_1" (f, r) of
+    drive and coast flanks, and "between_01" and the like (k, r, r') of drive flanks by coast flanks, from the least
+    distance of `reach.between_mates` on.
     """
     held, to_cuts, link = parts
     kinds = 1 if reach.across is None else 2
@@ -38,13 +39,15 @@ def blocks_between_mates(parts: tuple[np.ndarray, np.ndarray, np.ndarray], teeth
         return found if ahead else found + held[dofs[kind], dofs[other]]
 
     arrays = {}
-    for kind in range(kinds):
+    if reach.own is not None:
+        arrays["blocks"] = joined_blocks(*parts, teeth, reach.of_one_mate)
+    for kind in range(kinds if reach.own is None else 0):
         # In the mirror a tooth ahead is one behind.
         own = np.stack([block(kind, kind, -ahead if kind else ahead) for ahead in range(reach.same + 1)])
         own[0] = 0.5 * (own[0] + own[0].T)
         arrays[f"blocks_{kind}"] = own
     wanted = reach.between_mates
-    squares = np.zeros((kinds, *arrays["blocks_0"].shape[1:]))
+    squares = np.zeros((kinds, *(2 * (len(held) // kinds,))))
     for (kind, other), (first, last) in wanted.items():
         for ahead in range(first, last + 1):
             found = block(kind, other, ahead)

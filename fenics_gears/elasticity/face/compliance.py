@@ -82,19 +82,28 @@ def shared_compliance(
             arrays[name] *= 1.0 / (material.youngs_modulus * gear.module)
     arrays["plane"] *= 1.0 / material.youngs_modulus
     near = NearField.of_arrays(arrays).scaled(gear.module, material.youngs_modulus)
-    size = 2 * len(arrays["roll_angle"])
     slope, element = discretisation.twist * gear.base_radius, _element(gear, arrays["roll_angle"])
     flanks = []
     for kind in range(1 if reach.across is None else 2):
-        dofs = slice(size * kind, size * (kind + 1))
-        plane = arrays["plane"][:, dofs, dofs]
-        # In the mirror a tooth ahead is one behind, and the image leans the other way.
-        plane, leaning = (plane.swapaxes(1, 2), -slope) if kind else (plane, slope)
-        ends = free_ends(leaning, material, element)
-        flanks.append(_body(gear, arrays, (arrays[f"blocks_{kind}"], plane, near.of_flank(kind), ends), 1, timings))
+        plane = _in_the_mirror(arrays["plane"]) if kind else arrays["plane"]
+        if reach.own is None:
+            size = 2 * len(arrays["roll_angle"])
+            blocks, plane, of_flanks = arrays[f"blocks_{kind}"], plane[:, :size, :size], slice(kind, kind + 1)
+        else:
+            blocks = _in_the_mirror(arrays["blocks"]) if kind else arrays["blocks"]
+            of_flanks = slice(None, None, -1 if kind else 1)
+        # The image leans the other way.
+        parts = blocks, plane, near.of_flanks(of_flanks), free_ends(-slope if kind else slope, material, element)
+        flanks.append(_body(gear, arrays, parts, 1 if reach.own is None else 2, timings))
     motions = tuple(arrays[f"motions_{kind}"] for kind in range(len(flanks)))
     known = {kinds: (first, arrays["between_{}{}".format(*kinds)]) for kinds, (first, _) in reach.between_mates.items()}
     return SharedCompliance(tuple(flanks), BetweenMates(motions, known))
+
+
+def _in_the_mirror(blocks: np.ndarray) -> np.ndarray:
+    """Blocks (k, 2 f, 2 f) of both flanks as the mirror image has them: a coast flank is a drive flank there, and a
+    tooth ahead is one behind."""
+    return np.ascontiguousarray(np.roll(blocks, blocks.shape[1] // 2, axis=(1, 2)).swapaxes(1, 2))
 
 
 def _body(

@@ -41,7 +41,7 @@ def computed_shared(gear: Gear, face: FaceDiscretisation, poissons_ratio: float,
     def blocks(parts: Parts) -> dict[str, np.ndarray]:
         return blocks_between_mates(parts, gear.teeth, reach)
 
-    return _computed(gear, face, poissons_ratio, reach.same, reach.across is not None, blocks)
+    return _computed(gear, face, poissons_ratio, reach.of_one_mate, reach.across is not None, blocks)
 
 
 def _computed(

@@ -45,9 +45,8 @@ class NearField:
         factor = 1.0 / (module * youngs_modulus)
         return replace(self, heights=module * self.heights, compliance=tuple(factor * each for each in self.compliance))
 
-    def of_flank(self, number: int) -> NearField:
-        """That of one flank alone."""
-        own = slice(number, number + 1)
+    def of_flanks(self, own: slice) -> NearField:
+        """That of some flanks alone."""
         return replace(self, normals=self.normals[own], compliance=self.compliance[own])
 
     @property
