@@ -14,7 +14,7 @@ from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.model.train import train_model_of
 from fenics_gears.results.layout import MICRORADIANS, OF_OUTPUTS
-from fenics_gears.results.mesh_of_train import carried_train, mesh_run
+from fenics_gears.results.mesh_of_train import carried_train
 from fenics_gears.results.overall_orders import overall_orders, ramp_orders
 from fenics_gears.scene.train import TrainScene
 from fenics_gears.scene.train_layout import centres
@@ -27,7 +27,7 @@ from .line_load import line_loads
 from .panels import GREY, PALETTE, digits
 from .planetary import orbits, set_drawing, shares
 from .plots import heading, save_figures
-from .run import ShownRun
+from .run import shown_mesh
 from .train_shafts import deflections
 
 POINTS_OF_A_CIRCLE = 181
@@ -254,7 +254,7 @@ def loads_along_face(scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:
     for number, mesh in enumerate(scene.meshes):
         if not mesh.scene.three_dimensional or mesh.like is not None:
             continue
-        run = ShownRun(mesh_run(dataset, scene, number))
+        run = shown_mesh(dataset, scene, number)
         drawn = line_loads(run)[-1:] if run.over_face else []
         charts += [replace(each, caption=f"{mesh.name}: {each.caption.lower()}") for each in drawn]
     return charts

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 from math import pi
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import xarray as xr
 
-from fenics_gears import MICRORADIANS, carried_train, mesh_run, overall_orders
+from fenics_gears import MICRORADIANS, overall_orders
 from fenics_gears.many_runs import Progress, SilentProgress, result_rows, train_rows
 from fenics_gears.pages import (
     Block,
@@ -44,33 +46,48 @@ from fenics_gears.shown import (
     pair_forces,
     planet_shares,
     set_runs,
+    shown_mesh,
     train_errors,
     train_model_of,
     train_orders,
 )
 
+from .effects import effects_of_train
 from .face import FACTORS
 from .overview import warnings
 from .power_flow import power_flow
+from .stress import stresses
 
 LISTED_ORDERS = 20
 # Of the largest amplitude; what is below is round-off.
 LEAST_LISTED = 1e-6
 
 
-def train_page(dataset: xr.Dataset, file: Path, progress: Progress | None = None) -> Page:
-    """The page of a train's run, read from `file`. Raises SceneError where the train in it is none of this version."""
+def mesh_runs(dataset: xr.Dataset, train: TrainScene, file: Path, **asked: Any) -> dict[int, ShownRun]:
+    """The meshes of a train's run that have sections, by their numbers: of a planetary set those that are like others
+    are left out. A stage of two gears has a folder of its own. `asked`: of their stress pictures."""
+    return {
+        number: shown_mesh(dataset, train, number, file=file.parent / mesh.name / file.name, **asked)
+        for number, mesh in enumerate(train.meshes)
+        if mesh.like is None
+    }
+
+
+def train_page(
+    dataset: xr.Dataset, train: TrainScene, runs: Mapping[int, ShownRun], file: Path, progress: Progress | None = None
+) -> Page:
+    """The page of a train's run, read from `file`, with its `mesh_runs`."""
     progress = progress or SilentProgress()
     progress.stage("sections")
-    train = carried_train(dataset)
     sections = [
         _summary(dataset, train), warnings(ShownRun(dataset)), _geometry(train), *_powers(dataset, train),
         PageSection("motion", "Transmission error", train_errors(train, dataset)), _orders(dataset, train),
         *_shafts(dataset, train), *_frequencies(train),
     ]  # fmt: skip
-    # Meshes of a planetary set that are like others are left out.
-    sections += [_mesh(dataset, train, number) for number, mesh in enumerate(train.meshes) if mesh.like is None]
+    sections += [_mesh(run, number, train.meshes[number].name) for number, run in runs.items()]
+    progress.stage("stresses")
     sections += [
+        *stresses(runs), effects_of_train(dataset, train, runs, file),
         PageSection("numbers", "Numbers", [Facts(train_rows(dataset), "Of the whole and of each mesh")]),
         version_section(dataset.attrs, file), scene_section(str(dataset.attrs.get("scene", ""))),
     ]  # fmt: skip
@@ -273,9 +290,8 @@ def _orders(dataset: xr.Dataset, train: TrainScene) -> PageSection:
     return PageSection("orders", "Orders of the overall transmission error", [*charts, Table(headings, rows)])
 
 
-def _mesh(dataset: xr.Dataset, train: TrainScene, number: int) -> PageSection:
+def _mesh(run: ShownRun, number: int, name: str) -> PageSection:
     """What a mesh has as a pair: shares of its tooth pairs, pressure, line load over the face."""
-    run = ShownRun(mesh_run(dataset, train, number))
     charts = list(pair_forces(run))[:1]
     charts += largest_pressures(run) if has_pressure(run) else []
     said: list[Block] = []
@@ -284,5 +300,4 @@ def _mesh(dataset: xr.Dataset, train: TrainScene, number: int) -> PageSection:
         attributes = run.dataset.attrs
         said = [Words(words.format(attributes[name])) for name, words in FACTORS.items() if name in attributes]
     rows = result_rows(run.dataset)
-    name = train.meshes[number].name
     return PageSection(f"mesh-{number + 1}", f"Mesh: {name}", [*charts, *said, Facts(rows, f"Of mesh {name}")])
