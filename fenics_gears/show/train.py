@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
+from fenics_gears.errors import SceneError
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.model.train import train_model_of
@@ -60,7 +61,7 @@ def subjects_of(scene: TrainScene, dataset: xr.Dataset) -> list[tuple[str, list[
     """Subjects and charts of the pictures of a train behind its drawing; without charts where it has no such thing."""
     return [
         ("Transmission error", errors(scene, dataset)),
-        ("Orders of the overall transmission error", orders(scene, dataset)),
+        ("Orders of the overall transmission error", _known_orders(scene, dataset)),
         ("Line load along the face", loads_along_face(scene, dataset)),
         ("Shafts under load", bent_shafts_of(scene, dataset)),
         ("Load sharing of the planets", shares(scene, dataset)),
@@ -187,8 +188,17 @@ def _of_outputs(dataset: xr.Dataset, times: np.ndarray, along: str) -> Chart:
     return Chart("Outputs, each without its mean", curves, along, words, height=280)
 
 
+def _known_orders(scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:
+    """None where the result's warnings say why."""
+    try:
+        return orders(scene, dataset)
+    except SceneError:
+        return []
+
+
 def orders(scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:
-    """Of a speed ramp the orders over the speed and a Campbell diagram, else the spectrum of the whole run."""
+    """Of a speed ramp the orders over the speed and a Campbell diagram, else the spectrum of the whole run. Raises
+    SceneError where the run is too short for them."""
     if scene.shafts.ramp is None:
         return [_spectrum(scene, dataset)]
     found = ramp_orders(dataset, scene)

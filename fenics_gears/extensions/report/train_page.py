@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from fenics_gears import MICRORADIANS, overall_orders
+from fenics_gears import MICRORADIANS, SceneError, overall_orders
 from fenics_gears.many_runs import Progress, SilentProgress, result_rows, train_rows
 from fenics_gears.pages import (
     Block,
@@ -24,6 +24,7 @@ from fenics_gears.pages import (
     Words,
     made_by,
     scene_section,
+    sentence,
     version_section,
 )
 from fenics_gears.shown import (
@@ -272,7 +273,10 @@ def _shares(dataset: xr.Dataset) -> list[Block]:
 
 
 def _orders(dataset: xr.Dataset, train: TrainScene) -> PageSection:
-    charts = train_orders(train, dataset)
+    try:
+        charts = train_orders(train, dataset)
+    except SceneError as error:
+        return sentence("orders", "Orders of the overall transmission error", f"{str(error).capitalize()}.", True)
     if train.shafts.ramp is not None:
         return PageSection("orders", "Orders of the overall transmission error over the speed", charts)
     found = sorted(overall_orders(dataset, train, turns=True), key=lambda each: -each.amplitude)[:LISTED_ORDERS]
