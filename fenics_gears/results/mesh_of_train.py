@@ -128,7 +128,7 @@ def mesh_run(result: xr.Dataset, train: TrainScene, number: int) -> xr.Dataset:
         "shown_cycles": mesh.scene.motion.recorded_cycles,
         **{name: value for name, value in attributes.items() if value and isinstance(value, str) or _is_number(value)},
         **{name: result.attrs[name] for name in SAID if name in result.attrs},
-        "title": f"{train.title}, {mesh.name}",
+        "title": f"{mesh.name} ({train.title})",
         **scene_attributes(mesh.scene),
         "warnings": "\n".join(_said_of(mesh.name, [each.name for each in train.meshes], warnings)),
     }

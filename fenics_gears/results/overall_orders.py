@@ -2,7 +2,8 @@
 last shaft through the ratios behind it. Amplitudes are of the last shaft, rad; order 1 is a turn of the first shaft.
 
 Where stages move together, the lag of the last shaft has harmonics of all mesh frequencies: they are fitted to it, by
-least squares over the recorded cycles, which are whole ones of the slowest mesh alone."""
+least squares over the recorded cycles, which are whole ones of the slowest mesh alone. Where these are too few for
+harmonics that are near each other, any amplitudes would do, and none are told."""
 
 from __future__ import annotations
 
@@ -23,6 +24,11 @@ from .sets_in_train import LAG_OF_SET, SET
 HARMONICS = 10
 # Of a turn of a shaft.
 OF_A_TURN = 3
+# Smallest singular value of a fit over the largest: by its inverse what no harmonic fits goes into the amplitudes. Of
+# whole cycles of all harmonics it is 0.7.
+LEAST_CONDITION = 0.05
+# Cycles of the slowest mesh that are tried for those that would be enough.
+TRIED = (2, 3, 4, 6, 8, 12, 16, 24, 32, 48)
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,12 +104,16 @@ def _fitted(result: xr.Dataset, train: TrainScene) -> tuple[list[CycleOfMesh], l
     """All harmonics in the overall transmission error together: of mesh frequencies, those that several meshes have as
     the first one's; and of turns of the gears that run out or whose teeth differ."""
     steps = result["steps_per_mesh_cycle"].values.astype(int)
-    meshes = _of_meshes(result, train)
     turns = _of_turns(train)
+    if not (train.shafts.moving or turns):
+        return [], []
+    meshes = _of_meshes(result, train)
     frequencies = [mesh.scene.motion.mesh_frequency for mesh in train.meshes]
     last = slice(-1 - train.recorded_cycles * int(steps.max()) if train.shafts.moving else 0, -1)
     every = [n * frequencies[mesh] for mesh, n in meshes] + [n * frequency for _, _, n, frequency in turns]
     cycles = np.outer(result["time"].values[last], every)
+    if not told_apart(cycles):
+        raise SceneError(_too_few_cycles(train, np.array(every), int(steps.max())))
     fitted = harmonics(cycles, result["overall_transmission_error"].values[last]).T
     found = []
     for number, (frequency, named) in enumerate(zip(frequencies, train.meshes)):
@@ -123,9 +133,44 @@ def _fitted(result: xr.Dataset, train: TrainScene) -> tuple[list[CycleOfMesh], l
 def harmonics(cycles: np.ndarray, values: np.ndarray) -> np.ndarray:
     """Cosines and sines (2, n, ...) in values (s, ...) beside their mean, by least squares; `cycles` (s, n): of each
     harmonic since the start."""
+    return np.linalg.lstsq(_columns(cycles), values, rcond=None)[0][1:].reshape(2, -1, *values.shape[1:])
+
+
+def told_apart(cycles: np.ndarray) -> bool:
+    """Whether steps are enough for the amplitudes of harmonics; `cycles`: as of `harmonics`."""
+    columns = _columns(cycles)
+    sizes = np.linalg.svd(columns, compute_uv=False)
+    return len(sizes) == columns.shape[1] and bool(sizes[-1] > LEAST_CONDITION * sizes[0])
+
+
+def _columns(cycles: np.ndarray) -> np.ndarray:
     angles = 2.0 * np.pi * cycles
-    columns = np.hstack([np.ones((len(cycles), 1)), np.cos(angles), np.sin(angles)])
-    return np.linalg.lstsq(columns, values, rcond=None)[0][1:].reshape(2, -1, *values.shape[1:])
+    return np.hstack([np.ones((len(cycles), 1)), np.cos(angles), np.sin(angles)])
+
+
+def _too_few_cycles(train: TrainScene, frequencies: np.ndarray, steps: int) -> str:
+    """Why there are no orders; `frequencies` (n,), Hz: of all harmonics. `steps`: of a cycle of the slowest mesh."""
+    rates = frequencies / min(mesh.scene.motion.mesh_frequency for mesh in train.meshes)
+    enough = (each for each in TRIED if told_apart(np.outer(np.arange(each * steps) / steps, rates)))
+    near = np.sort(frequencies / train.input_speed)
+    place = int(np.argmin(np.diff(near)))
+    count = next(enough, None)
+    allowed = f"more than {TRIED[-1]}" if count is None else f"{count} or more"
+    return (
+        "orders of the overall transmission error: the recorded cycles of the slowest mesh are too few to tell order"
+        f" {near[place]:.5g} of the first shaft from order {near[place + 1]:.5g}; there are none. Allowed: {allowed},"
+        " by motion.mesh_cycles and recorded_cycles"
+    )
+
+
+def why_no_orders(result: xr.Dataset, train: TrainScene) -> str:
+    """Why the orders of a train's result are not known, empty where they are; of a speed ramp not asked."""
+    try:
+        if train.shafts.ramp is None:
+            _fitted(result, train)
+    except SceneError as error:
+        return str(error)
+    return ""
 
 
 def _of_meshes(result: xr.Dataset, train: TrainScene) -> list[tuple[int, int]]:
@@ -155,7 +200,8 @@ def overall_orders(result: xr.Dataset, train: TrainScene, *, turns: bool = False
     """The first harmonics of each mesh frequency in the overall transmission error of a train's result, by their order;
     of meshes that have the same one, which an idler couples, the sum. Each has the `meshes`, the `harmonic`, the
     `order` of the first shaft, the `frequency` (Hz) and the `amplitude` of the last shaft (rad). With `turns` also
-    those of turns of the gears that run out or whose teeth differ.
+    those of turns of the gears that run out or whose teeth differ. Raises SceneError where the recorded cycles are too
+    few to tell them apart.
 
     >>> from pathlib import Path
     >>> from fenics_gears import simulate_train, train_from_text
@@ -207,7 +253,8 @@ def ramp_orders(result: xr.Dataset, train: TrainScene) -> list[RampOrder]:
     """The first harmonics of each mesh frequency, window by window of a run with a speed ramp; of those that several
     meshes have, the first mesh's.
 
-    They are fitted over the phases of the meshes, in which steps are equal whatever the speed."""
+    They are fitted over the phases of the meshes, in which steps are equal whatever the speed. Raises SceneError where
+    a window is too short to tell them apart."""
     steps = result["steps_per_mesh_cycle"].values.astype(int)
     turned = [mesh.scene.motion.mesh_frequency / train.input_speed for mesh in train.meshes]
     orders: dict[float, tuple[int, int]] = {}
@@ -220,6 +267,8 @@ def ramp_orders(result: xr.Dataset, train: TrainScene) -> list[RampOrder]:
     starts = range(0, len(lag) - width, width)
     # Mesh cycles of all harmonics at the steps of a window, from its start on.
     cycles = np.outer(np.arange(width), [n / steps[mesh] for mesh, n in orders.values()])
+    if not told_apart(cycles):
+        raise SceneError(f"orders over the speed: {WINDOW_CYCLES} cycles of the slowest mesh do not tell them apart")
     windows = np.array([lag[start : start + width] for start in starts]).reshape(-1, width)
     speeds = np.array([speed[start : start + width].mean() for start in starts])
     amplitudes = np.hypot(*harmonics(cycles, windows.T))

@@ -21,6 +21,7 @@ from .carried_scene import files_of
 from .dataset import RunResult
 from .layout import OF_OUTPUTS, OVERALL
 from .mesh_of_train import SHARED, over_meshes
+from .overall_orders import why_no_orders
 from .path_shares import path_shares
 from .sets_in_train import MESH, side_by_side
 from .validity import of_each_kind, worst_first
@@ -104,6 +105,8 @@ def dataset_of(model: TrainModel, meshes: Sequence[MeshResult]) -> xr.Dataset:
         coordinates |= shafts.coordinates
     found = xr.Dataset(variables, coords=coordinates)
     found.attrs = _attributes(model, meshes, overall) | ({} if shafts is None else shafts.numbers)
+    if said := why_no_orders(found, model.scene):
+        found.attrs["warnings"] = "\n".join([*found.attrs["warnings"].splitlines(), said])
     return found
 
 

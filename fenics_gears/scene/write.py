@@ -46,6 +46,9 @@ def why_another(scene: Scene, text: str) -> str:
         values = values_of_text(text, scene.name, directory=Path(scene.folder), with_lines=False)
     except GearsError as error:
         return " ".join(str(error).removesuffix("Nothing was computed or written.").split())
+    if not scene.motion.speed_given:
+        # No file says how long a mesh cycle takes without a speed; it scales times alone, in a train by the teeth.
+        values = {**values, "motion": replace(values["motion"], mesh_frequency=scene.motion.mesh_frequency)}
     names = (each.name for each in fields(scene) if each.name not in WORDS)
     differing = [name for name in names if values.get(name) != getattr(scene, name)]
     if not differing:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -13,9 +14,11 @@ from fenics_gears.effects import ALONG_THE_FACE, effects_on
 from fenics_gears.errors import GearsError
 from fenics_gears.geometry.pair import GearPair, gear_pair
 from fenics_gears.results.carried_scene import carried_scene
+from fenics_gears.results.mesh_of_train import mesh_run
 from fenics_gears.results.pairs import carrying_side, in_middle_slice, lives
 from fenics_gears.results.settled import of_settled
 from fenics_gears.scene.data import LOAD_WORDS, Scene
+from fenics_gears.scene.train_scene import TrainScene
 
 from .panels import digits, factor, in_unit
 
@@ -35,18 +38,23 @@ class ShownRun:
     """A result, the file it was read from, and the settings of its report.
 
     at: mesh cycles after the first stored step at which the stress picture is drawn, None for where the largest force
-    is; stress: whether it is drawn at all.
+    is; stress: whether it is drawn at all. of_train: where it is a mesh of a train, the train's result, the train and
+    the number of the mesh.
     """
 
     dataset: xr.Dataset
     file: Path | None = None
     at: float | None = None
     stress: bool = True
+    of_train: tuple[xr.Dataset, TrainScene, int] | None = None
 
     @cached_property
     def scene(self) -> Scene | None:
         """The scene that was run; None where its text is no scene of this version."""
-        return scene_of(self.dataset)
+        if self.of_train is None:
+            return scene_of(self.dataset)
+        _, train, number = self.of_train
+        return train.meshes[number].scene
 
     @property
     def title(self) -> str:
@@ -181,6 +189,11 @@ class ShownRun:
         pressure = in_unit(part[f"{side}contact_pressure"].transpose(*order), "MPa")
         place = in_unit(part[f"{side}contact_roll_angle"].transpose(*order), "deg")
         return pressure, place, part["contact_mesh_phase"].values, part["contact_pair_number"].values
+
+
+def shown_mesh(dataset: xr.Dataset, train: TrainScene, number: int, **asked: Any) -> ShownRun:
+    """A mesh of a train's result as the run of its pair. `asked`: further fields of it."""
+    return ShownRun(mesh_run(dataset, train, number), of_train=(dataset, train, number), **asked)
 
 
 def _with_ends(there: np.ndarray) -> np.ndarray:

@@ -2,6 +2,7 @@
 
 import io
 
+from fenics_gears.simulation.mesh_stresses import stresses_of_mesh
 from fenics_gears.simulation.run_stresses import RunStresses
 
 from .chart import Chart
@@ -11,7 +12,8 @@ from .stress_picture import charts_of, save_picture, still
 
 def drawn(run: ShownRun, index: int) -> tuple[bytes, str, list[Chart]]:
     """PNG of both gears in mesh at a stored time, what it shows in words, and the charts that go with it."""
-    with RunStresses(run.dataset, run.scene) as stresses:
+    found = RunStresses(run.dataset, run.scene) if run.of_train is None else stresses_of_mesh(*run.of_train)
+    with found as stresses:
         mesh = stresses.at(index)
     content = io.BytesIO()
     save_picture(still(mesh, run.dataset), content)

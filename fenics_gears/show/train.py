@@ -10,11 +10,12 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
+from fenics_gears.errors import SceneError
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.model.train import train_model_of
 from fenics_gears.results.layout import MICRORADIANS, OF_OUTPUTS
-from fenics_gears.results.mesh_of_train import carried_train, mesh_run
+from fenics_gears.results.mesh_of_train import carried_train
 from fenics_gears.results.overall_orders import overall_orders, ramp_orders
 from fenics_gears.scene.train import TrainScene
 from fenics_gears.scene.train_layout import centres
@@ -27,7 +28,7 @@ from .line_load import line_loads
 from .panels import GREY, PALETTE, digits
 from .planetary import orbits, set_drawing, shares
 from .plots import heading, save_figures
-from .run import ShownRun
+from .run import shown_mesh
 from .train_shafts import deflections
 
 POINTS_OF_A_CIRCLE = 181
@@ -60,7 +61,7 @@ def subjects_of(scene: TrainScene, dataset: xr.Dataset) -> list[tuple[str, list[
     """Subjects and charts of the pictures of a train behind its drawing; without charts where it has no such thing."""
     return [
         ("Transmission error", errors(scene, dataset)),
-        ("Orders of the overall transmission error", orders(scene, dataset)),
+        ("Orders of the overall transmission error", _known_orders(scene, dataset)),
         ("Line load along the face", loads_along_face(scene, dataset)),
         ("Shafts under load", bent_shafts_of(scene, dataset)),
         ("Load sharing of the planets", shares(scene, dataset)),
@@ -187,8 +188,17 @@ def _of_outputs(dataset: xr.Dataset, times: np.ndarray, along: str) -> Chart:
     return Chart("Outputs, each without its mean", curves, along, words, height=280)
 
 
+def _known_orders(scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:
+    """None where the result's warnings say why."""
+    try:
+        return orders(scene, dataset)
+    except SceneError:
+        return []
+
+
 def orders(scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:
-    """Of a speed ramp the orders over the speed and a Campbell diagram, else the spectrum of the whole run."""
+    """Of a speed ramp the orders over the speed and a Campbell diagram, else the spectrum of the whole run. Raises
+    SceneError where the run is too short for them."""
     if scene.shafts.ramp is None:
         return [_spectrum(scene, dataset)]
     found = ramp_orders(dataset, scene)
@@ -254,7 +264,7 @@ def loads_along_face(scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:
     for number, mesh in enumerate(scene.meshes):
         if not mesh.scene.three_dimensional or mesh.like is not None:
             continue
-        run = ShownRun(mesh_run(dataset, scene, number))
+        run = shown_mesh(dataset, scene, number)
         drawn = line_loads(run)[-1:] if run.over_face else []
         charts += [replace(each, caption=f"{mesh.name}: {each.caption.lower()}") for each in drawn]
     return charts

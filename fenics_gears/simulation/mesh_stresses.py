@@ -20,8 +20,12 @@ from .run_stresses import RunStresses, recovery_of
 from .stored_forces import StoredForces, stored_forces
 from .train import cycle_of_row
 
-# Of stored times, s.
-SAME_TIME = 1e-9
+
+def stresses_of_mesh(result: xr.Dataset, train: TrainScene, number: int) -> RunStresses:
+    """Of any mesh of a train's result, which is a pair where it runs by itself. Errors are those of `RunStresses`."""
+    if number in train.alone:
+        return RunStresses(mesh_run(result, train, number), train.meshes[number].scene)
+    return MeshStresses(result, train, number)
 
 
 class MeshStresses(RunStresses):

@@ -56,6 +56,18 @@ def test_each_stage_is_a_run_and_a_scene_for_all_other_commands(ran, tmp_path, c
     assert "Known: first, second" in capsys.readouterr().err
 
 
+def test_a_stage_without_a_speed_is_a_scene_too(scene, tmp_path, capsys):
+    """The one behind, whose mesh cycles are not those of the first: its file is read, and its run repeats to the last
+    digit."""
+    assert main(["run", str(scene), "-o", str(tmp_path / "out"), "-q", "--no-pictures"]) == 0
+    second = tmp_path / "out" / "second"
+    assert main(["check", str(second / "scene.toml")]) == 0
+    again = simulate(load_scene(second / "scene.toml"))
+    assert np.array_equal(again["transmission_error"], load(second / "run.nc")["transmission_error"])
+    assert main(["picture", str(second), "-q"]) == 0
+    capsys.readouterr()
+
+
 def test_check_tells_shafts_and_meshes(scene, capsys):
     """Torque falls and speed rises by the ratios: 400 N m, 200 N m, 133.33 N m."""
     assert main(["check", str(scene)]) == 0

@@ -8,6 +8,7 @@ from tests.trains import bent_two_stages, gearbox_file
 
 from fenics_gears import carried_train, load, overall_orders
 from fenics_gears.commands.cli import main
+from fenics_gears.extensions.noise.train_figures import train_charts
 
 
 @pytest.fixture
@@ -50,6 +51,7 @@ def test_the_spectrum_of_a_train(ran, capsys):
     first = [float(figures["order"][(figures["meshes"] == name).values][0]) for name in ("first", "second")]
     assert first == pytest.approx([20.0, 20.0 * 20 / 30])
     assert (ran / "noise.png").stat().st_size > 10000
+    assert [each.name for each in train_charts(figures)[0].curves][:2] == ["first", "second"]
     assert main(["plot", str(ran), "--spectrum", "hann"]) == 2
     assert "orders of a train are of whole cycles" in capsys.readouterr().err
 

@@ -1,13 +1,23 @@
 """A mesh of a train's result as that of its pair; what all meshes add up to."""
 
 import csv
+from dataclasses import replace
 
 import numpy as np
 import pytest
 import xarray as xr
 from tests.trains import COARSE, row, stage, two_stages
 
-from fenics_gears import HARMONIC_NAMES, MICROMETRE, cycles_of_meshes, load, mesh_run, simulate_train, train_from_text
+from fenics_gears import (
+    HARMONIC_NAMES,
+    MICROMETRE,
+    SceneError,
+    cycles_of_meshes,
+    load,
+    mesh_run,
+    simulate_train,
+    train_from_text,
+)  # fmt: skip
 from fenics_gears.results.curves_table import save_curves
 from fenics_gears.results.files import save
 from fenics_gears.results.layout import mistake_in
@@ -104,15 +114,17 @@ def test_a_stage_in_the_plane_beside_one_over_the_face():
 
 def test_orders_of_stages_that_move_together():
     """A lag that is put together of known harmonics of both meshes, over cycles that are whole of the slower mesh
-    alone, is taken apart into them."""
+    alone, is taken apart into them; over one cycle, in which their orders are half a cycle apart, it is not, and the
+    cycles that are asked for are enough."""
     more = """
         [shafts.one]
         carries = ["first.wheel", "second.pinion"]
         torsional_stiffness = "1e8 N mm/rad"
         """
-    train = two_stages(more=more)
+    one_cycle = two_stages(more=more)
+    train = replace(one_cycle, recorded_cycles=3)
     steps = np.array([80, 120])
-    times = np.arange(121) / (80 * train.meshes[0].scene.motion.mesh_frequency)
+    times = np.arange(361) / (80 * train.meshes[0].scene.motion.mesh_frequency)
     frequencies = [mesh.scene.motion.mesh_frequency for mesh in train.meshes]
     parts = [(0, 1, 3e-5), (0, 4, 1e-6), (1, 1, 2e-5), (1, 2, 5e-6)]
     lag = 1e-3 + sum(size * np.cos(2.0 * np.pi * n * frequencies[mesh] * times + n) for mesh, n, size in parts)
@@ -123,3 +135,7 @@ def test_orders_of_stages_that_move_together():
     for mesh, n, size in parts:
         assert found.pop((mesh, n)) == pytest.approx(size, rel=1e-9)
     assert max(found.values()) < 1e-9 * 3e-5
+    with pytest.raises(SceneError, match=r"too few to tell order .* there are none\. Allowed: 2 or more"):
+        overall_orders(result, one_cycle)
+    enough = overall_orders(result, replace(one_cycle, recorded_cycles=2))
+    assert enough[0].amplitude == pytest.approx(2e-5, rel=1e-9)

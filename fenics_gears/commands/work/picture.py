@@ -13,7 +13,7 @@ from fenics_gears.show.run import scene_of
 from fenics_gears.show.stress_animation import animate, check_suffix, save_series
 from fenics_gears.show.stress_grid import save_vtu
 from fenics_gears.show.stress_picture import save_picture, still
-from fenics_gears.simulation.mesh_stresses import MeshStresses
+from fenics_gears.simulation.mesh_stresses import stresses_of_mesh
 from fenics_gears.simulation.run_stresses import RunStresses
 from fenics_gears.simulation.stored_forces import stored_index
 from fenics_gears.system.console import printable
@@ -83,10 +83,7 @@ def _of_train(options: argparse.Namespace, file: Path, dataset) -> int:
         folder = file.parent / names[number].replace(":", "")
         output = options.output or folder / (ANIMATION_FILE if options.animate else PICTURE_FILE)
         check_writable(output.parent, output.name)
-        scene = train.meshes[number].scene
-        by_itself = number in train.alone
-        stresses = partial(RunStresses, own, scene) if by_itself else partial(MeshStresses, dataset, train, number)
-        _draw(options, own, stresses, stored_index(own, options.at), output)
+        _draw(options, own, partial(stresses_of_mesh, dataset, train, number), stored_index(own, options.at), output)
     return 0
 
 

@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 
 import fenics_gears
-from fenics_gears import MICRORADIANS, OVERALL, carried_train, load, overall_orders
+from fenics_gears import MICRORADIANS, OVERALL, SceneError, carried_train, load, overall_orders
 from fenics_gears.charts import DARK, GREY, MARKED_LINES, PALETTE, Chart, Curve, shades, span, words_apart
 from fenics_gears.many_runs import Outcome, kinds_of_meshes, load_combined
 
@@ -74,7 +74,7 @@ def _amplitudes(outcomes: dict[tuple[str, tuple[str, ...]], Outcome], loads: int
         values: dict[tuple[int, int], np.ndarray] = {}
         for index in outcome.records:
             run = load(outcome.file.parent / "cases" / f"{outcome.study.cases[index].name}.nc")
-            for each in overall_orders(run, carried_train(run)):
+            for each in _orders_of(run):
                 key = each.place, each.harmonic
                 known.setdefault(key, each)
                 values.setdefault(key, np.full(len(outcome.study.cases), np.nan))[index] = each.amplitude
@@ -103,6 +103,14 @@ def _amplitudes(outcomes: dict[tuple[str, tuple[str, ...]], Outcome], loads: int
     }
 
 
+def _orders_of(run: xr.Dataset) -> list[Any]:
+    """Of a run; none where its warnings say why."""
+    try:
+        return overall_orders(run, carried_train(run))
+    except SceneError:
+        return []
+
+
 def train_map_pictures(found: xr.Dataset) -> dict[str, tuple[str, list[Chart]]]:
     """Subject and charts of each picture for which a map has data, by file name."""
     pictures: dict[str, tuple[str, list[Chart]]] = {}
@@ -117,7 +125,8 @@ def train_map_pictures(found: xr.Dataset) -> dict[str, tuple[str, list[Chart]]]:
             highest = found.isel(load=-1)
             charts = [_of_loads(found, speed), *list(_over(highest, "input_speed", speed, DYNAMIC))[1:]]
             pictures["over_speed.png"] = ("Steady speeds", charts)
-        pictures["campbell.png"] = ("Campbell diagram", [_campbell(found, speed)])
+        if found.sizes["order"]:
+            pictures["campbell.png"] = ("Campbell diagram", [_campbell(found, speed)])
     return pictures
 
 
@@ -132,7 +141,8 @@ def _over(found: xr.Dataset, over: str, axis: str, prefix: str) -> Iterator[Char
         f"{int(found['harmonic'][number])} × {found['meshes_of_order'].values[number]}": amplitudes[..., number].values
         for number in _drawn_orders(found)
     }
-    yield _chart(curves, places, axis, f"Its orders{at}", "Amplitude (µrad)")
+    if any(np.isfinite(each).any() for each in curves.values()):
+        yield _chart(curves, places, axis, f"Its orders{at}", "Amplitude (µrad)")
     errors = found[f"{prefix}peak_to_peak_transmission_error"]
     yield _chart(
         _of_kinds(errors),

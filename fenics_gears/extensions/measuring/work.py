@@ -47,15 +47,23 @@ class Measurement:
 
 
 def effects(options: argparse.Namespace) -> int:
-    of_train = replace(TRAIN, measure=train_effects.measure)
-    return report_of(options, "effects", EFFECTS, of_train)
+    return report_of(options, "effects", EFFECTS, _effects_of_train())
 
 
-def effects_of(scene: Scene, directory: Path, progress) -> list[Path]:
-    """The files of ``gears effects`` on a scene, written into a directory. Raises SceneError under mpirun."""
-    if communicator() is not None:
-        raise SceneError(f"--effects {NO_TIMES}")
-    return write_report(EFFECTS, measured.measure(scene, progress), directory, "effects")
+def effects_of(scene: Any, directory: Path, progress) -> list[Path]:
+    """The files of ``gears effects`` on the scene of a pair or a train, written into a directory. Raises SceneError
+    under mpirun."""
+    found, _ = _parts(scene, directory)
+    _check(found, "effects", "--effects")
+    written: list[Path] = []
+    for each, own in found:
+        measurement = EFFECTS if isinstance(each, Scene) else _effects_of_train()
+        written += write_report(measurement, measurement.measure(each, progress), own, "effects")
+    return written
+
+
+def _effects_of_train() -> Measurement:
+    return replace(TRAIN, measure=train_effects.measure)
 
 
 def _tell_effects(report) -> None:
@@ -100,35 +108,43 @@ TRAIN = Measurement(train_accuracy.measure, train_rows.write_csv, train_rows.pic
 
 
 def scenes_to_measure(options, command: str) -> list[tuple[Any, Path]]:
-    """The scene and the directory of a command that measures times; of a train those of its stages of two gears, each
-    by itself, or the train where all its meshes are computed together. Raises SceneError under mpirun, and as
+    """The scenes and directories of a command that measures times, see `_parts`. Raises SceneError under mpirun, and as
     `checked_model` does."""
     scene = load_scene_or_train(options.scene)
     directory = options.output or Path("results") / scene.name
-    if isinstance(scene, Scene):
-        found: list[tuple[Any, Path]] = [(checked_model(options.scene).scene, directory)]
-    elif not scene.alone:
-        found = [(scene, directory)]
-    else:
-        coupled = ", ".join(scene.together)
-        left = f" Left out, since their meshes are computed together: {coupled}." if coupled else ""
-        if not options.quiet:
-            said = "Each stage of two gears by itself, under its torque: shafts between them are rigid."
-            print(f"{said}{left}", file=sys.stderr)
-        alone = [scene.meshes[number] for number in scene.alone]
-        found = [(mesh.scene, directory / mesh.name) for mesh in alone]
+    found, said = _parts(checked_model(options.scene).scene if isinstance(scene, Scene) else scene, directory)
+    if said and not options.quiet:
+        print(said, file=sys.stderr)
+    _check(found, command, f"gears {command}")
+    return found
+
+
+def _parts(scene: Any, directory: Path) -> tuple[list[tuple[Any, Path]], str]:
+    """The scene of a pair or a train, and the directory of what is measured of it; of a train those of its stages of
+    two gears, each by itself, and words on it, or the train where all its meshes are computed together."""
+    if isinstance(scene, Scene) or not scene.alone:
+        return [(scene, directory)], ""
+    coupled = ", ".join(scene.together)
+    left = f" Left out, since their meshes are computed together: {coupled}." if coupled else ""
+    said = "Each stage of two gears by itself, under its torque: shafts between them are rigid."
+    alone = [scene.meshes[number] for number in scene.alone]
+    return [(mesh.scene, directory / mesh.name) for mesh in alone], f"{said}{left}"
+
+
+def _check(found: list[tuple[Any, Path]], command: str, called: str) -> None:
+    """Raises SceneError where the files of a `command`, as it was `called`, cannot be written, under mpirun, and where
+    settings are not given."""
     for _, each in found:
         check_writable(each, f"{command}.csv", f"{command}.png")
     if communicator() is not None:
-        raise SceneError(f"gears {command} {NO_TIMES}")
+        raise SceneError(f"{called} {NO_TIMES}")
     scenes = [
         own
         for each, _ in found
         for own in ([each] if isinstance(each, Scene) else [mesh.scene for mesh in each.meshes])
     ]
     if any(each.accuracy.target is not None for each in scenes):
-        raise SceneError(f"gears {command} takes settings as they stand: leave accuracy.target out.")
-    return found
+        raise SceneError(f"{called} takes settings as they stand: leave accuracy.target out.")
 
 
 def report_of(options, command: str, of_pair: Measurement, of_train: Measurement) -> int:

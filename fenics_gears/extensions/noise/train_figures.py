@@ -30,6 +30,7 @@ def train_figures(result: xr.Dataset) -> xr.Dataset:
         {
             "order": over([each.order for each in found], units="1", long_name="events in a turn of the first shaft"),
             "meshes": over(np.array([each.meshes for each in found], dtype=object), long_name="meshes that have it"),
+            "place": over([each.place for each in found], long_name="place of the first of them in the train"),
             "harmonic": over([each.harmonic for each in found], units="1", long_name="multiple of the mesh frequency"),
             "frequency": over([each.frequency for each in found], units="Hz", long_name="frequency"),
         },
@@ -38,7 +39,7 @@ def train_figures(result: xr.Dataset) -> xr.Dataset:
 
 
 def train_charts(figures: xr.Dataset) -> list[Chart]:
-    """Levels over orders, a colour for each mesh."""
+    """Levels over orders, a colour for each mesh, in the order of the train."""
     orders, levels = figures["order"].values, figures[f"{OVERALL}_level"].values
     top = float(levels.max())
     foot = top - DECIBELS
@@ -46,7 +47,7 @@ def train_charts(figures: xr.Dataset) -> list[Chart]:
     meshes = figures["meshes"].values
     curves = [
         Curve(str(name), *stems(orders[of], levels[of], foot - 1.0), colour, width=2.6)
-        for name, colour in zip(dict.fromkeys(meshes), (*PALETTE, *PALETTE))
+        for name, colour in zip(dict.fromkeys(meshes[np.argsort(figures["place"].values)]), (*PALETTE, *PALETTE))
         if (of := heard & (meshes == name)).any()
     ]
     named = heard & (figures["harmonic"].values <= NAMED)

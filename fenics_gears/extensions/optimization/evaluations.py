@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from fenics_gears import MICRORADIANS, OVERALL, Scene, carried_train, overall_orders
+from fenics_gears import MICRORADIANS, OVERALL, Scene, SceneError, carried_train, overall_orders
 from fenics_gears.many_runs import (
     NO_MEANING,
     Alone,
@@ -30,11 +30,13 @@ from fenics_gears.scene_text import Models, NoScene, is_train
 
 from .conditions import trees_of
 from .design import Design, Goal
-from .goals import ERROR, OVER_FACE, OVERALL_ERROR, order_name
+from .goals import ERROR, OVER_FACE, OVERALL_ERROR, WEIGHTED, order_name
 
 UNUSABLE = 1e6
 """What the search is told instead of a goal where a design failed; one that breaks bounds is told a thousandth of it
 and more."""
+# In what is kept of a run, why a train has no orders.
+WITHOUT_ORDERS = "without_orders"
 
 
 @dataclass(frozen=True)
@@ -151,7 +153,8 @@ class Evaluator:
         found = {name: [self.design.number(name, line["numbers"]) for line in lines] for name in self.design.asked}
         for name, numbers in found.items():
             if None in numbers:
-                return Evaluation(values, failure=f"the run has no {name}")
+                why = lines[numbers.index(None)].get(WITHOUT_ORDERS, "") if name == WEIGHTED else ""
+                return Evaluation(values, failure=f"the run has no {name}{why and f': {why}'}")
         shape = len(self.design.loads.points), samples
         by_name = {name: np.array(numbers).reshape(shape) for name, numbers in found.items()}
         of_samples = {name: self.design.loads.combined(numbers) for name, numbers in by_name.items()}
@@ -171,11 +174,15 @@ def _of_train(result: Any) -> dict[str, Any]:
     numbers = {name: float(np.nanmax(values)) for name, values in of_meshes.items()} | record.numbers
     numbers[OVERALL_ERROR] *= MICRORADIANS
     train = carried_train(result.dataset)
-    for each in overall_orders(result.dataset, train):
-        stage = train.meshes[each.place].gears[0].partition(".")[0]
-        numbers[order_name(stage, each.harmonic)] = MICRORADIANS * each.amplitude
+    without = {}
+    try:
+        for each in overall_orders(result.dataset, train):
+            stage = train.meshes[each.place].gears[0].partition(".")[0]
+            numbers[order_name(stage, each.harmonic)] = MICRORADIANS * each.amplitude
+    except SceneError as error:
+        without[WITHOUT_ORDERS] = str(error)
     curve = [record.mesh_phase.tolist(), record.curves[OVERALL].tolist()]
-    return {"numbers": numbers, "curve": curve, "seconds": seconds_of(result)}
+    return {"numbers": numbers, "curve": curve, "seconds": seconds_of(result), **without}
 
 
 def _curve(run: RunResult) -> list[list[float]]:

@@ -18,11 +18,12 @@ def summary(run: ShownRun) -> PageSection:
 def warnings(run: ShownRun) -> PageSection:
     """The warnings of the run."""
     said = str(run.dataset.attrs.get("warnings", "")).splitlines()
-    blocks = [Words(_sentence(each), warns=True) for each in said]
+    blocks = [Words(as_sentence(each), warns=True) for each in said]
     return PageSection("warnings", "Warnings", blocks or [Words("None: the run stayed within what the model assumes.")])
 
 
-def _sentence(words: str) -> str:
+def as_sentence(words: str) -> str:
+    """What a warning says, as a sentence."""
     if "." in words.split(maxsplit=1)[0]:
         # The name of a field.
         words = f"`{words}".replace(" ", "` ", 1)

@@ -1,5 +1,8 @@
 """The gears in mesh with their stresses, drawn as `gears picture` draws them."""
 
+from collections.abc import Mapping
+from dataclasses import replace
+
 import numpy as np
 import xarray as xr
 
@@ -22,9 +25,25 @@ def stress(run: ShownRun) -> PageSection:
         return sentence("stress", HEADING, f"It could not be drawn: {error}", True)
     when = "where the force of the mesh is largest" if run.at is None else "as asked for"
     since = float(dataset["mesh_phase"].values[index] - dataset["mesh_phase"].values[0])
-    others = "`gears picture RUN --at PHASE` draws other times, `--animate` a turn."
+    mesh = "" if run.of_train is None else f' --mesh "{_mesh_of(run)}"'
+    others = f"`gears picture RUN{mesh} --at PHASE` draws other times, `--animate` a turn."
     note = f"{since:.4g} mesh cycles after the first step with contact fields, {when}; {others}"
     return PageSection("stress", HEADING, [Picture(f"{shown} of both gears in mesh", content, note), *charts])
+
+
+def stresses(runs: Mapping[int, ShownRun]) -> list[PageSection]:
+    """Those of the meshes of a train, by their numbers; one section where they are left out."""
+    if not all(run.stress for run in runs.values()):
+        return [stress(run) for run in runs.values()][:1]
+    return [
+        replace(stress(run), name=f"stress-{number + 1}", heading=f"{HEADING}: {_mesh_of(run)}")
+        for number, run in runs.items()
+    ]
+
+
+def _mesh_of(run: ShownRun) -> str:
+    _, train, number = run.of_train
+    return train.meshes[number].name
 
 
 def _why_not(run: ShownRun) -> tuple[str, bool] | None:

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from collections.abc import Mapping
 from math import pi
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import xarray as xr
 
-from fenics_gears import MICRORADIANS, carried_train, mesh_run, overall_orders
+from fenics_gears import MICRORADIANS, SceneError, overall_orders
 from fenics_gears.many_runs import Progress, SilentProgress, result_rows, train_rows
 from fenics_gears.pages import (
     Block,
@@ -22,11 +23,10 @@ from fenics_gears.pages import (
     Words,
     made_by,
     scene_section,
+    sentence,
     version_section,
 )
 from fenics_gears.shown import (
-    OF_SHARES,
-    SHARE,
     MeshOfScene,
     Rows,
     ShownRun,
@@ -40,37 +40,50 @@ from fenics_gears.shown import (
     largest_pressures,
     line_loads,
     motion_rows,
-    orbits,
     pair_forces,
-    planet_shares,
-    set_runs,
+    shown_mesh,
     train_errors,
     train_model_of,
     train_orders,
 )
 
+from .effects import effects_of_train
 from .face import FACTORS
-from .overview import warnings
+from .overview import as_sentence, warnings
 from .power_flow import power_flow
+from .stress import stresses
+from .train_power import powers
 
 LISTED_ORDERS = 20
 # Of the largest amplitude; what is below is round-off.
 LEAST_LISTED = 1e-6
 
 
-def train_page(dataset: xr.Dataset, file: Path, progress: Progress | None = None) -> Page:
-    """The page of a train's run, read from `file`. Raises SceneError where the train in it is none of this version."""
+def mesh_runs(dataset: xr.Dataset, train: TrainScene, file: Path, **asked: Any) -> dict[int, ShownRun]:
+    """The meshes of a train's run that have sections, by their numbers: of a planetary set those that are like others
+    are left out. A stage of two gears has a folder of its own. `asked`: of their stress pictures."""
+    return {
+        number: shown_mesh(dataset, train, number, file=file.parent / mesh.name / file.name, **asked)
+        for number, mesh in enumerate(train.meshes)
+        if mesh.like is None
+    }
+
+
+def train_page(
+    dataset: xr.Dataset, train: TrainScene, runs: Mapping[int, ShownRun], file: Path, progress: Progress | None = None
+) -> Page:
+    """The page of a train's run, read from `file`, with its `mesh_runs`."""
     progress = progress or SilentProgress()
     progress.stage("sections")
-    train = carried_train(dataset)
     sections = [
-        _summary(dataset, train), warnings(ShownRun(dataset)), _geometry(train), *_powers(dataset, train),
+        _summary(dataset, train), warnings(ShownRun(dataset)), _geometry(train), *powers(dataset, train),
         PageSection("motion", "Transmission error", train_errors(train, dataset)), _orders(dataset, train),
         *_shafts(dataset, train), *_frequencies(train),
     ]  # fmt: skip
-    # Meshes of a planetary set that are like others are left out.
-    sections += [_mesh(dataset, train, number) for number, mesh in enumerate(train.meshes) if mesh.like is None]
+    sections += [_mesh(run, number, train.meshes[number].name) for number, run in runs.items()]
+    progress.stage("stresses")
     sections += [
+        *stresses(runs), effects_of_train(dataset, train, runs, file),
         PageSection("numbers", "Numbers", [Facts(train_rows(dataset), "Of the whole and of each mesh")]),
         version_section(dataset.attrs, file), scene_section(str(dataset.attrs.get("scene", ""))),
     ]  # fmt: skip
@@ -83,7 +96,12 @@ def _conditions(train: TrainScene) -> str:
     if train.shafts.ramp is not None:
         speed = f"{speed.removesuffix(' rpm')} to {digits(30.0 / pi * train.shafts.ramp.end_speed)} rpm"
     torque = digits(train.input_torque * factor("N mm", "N m"))
-    return f"{torque} N m on the first shaft{speed}, {len(train.meshes)} meshes, {_motion(train)}"
+    return f"{torque} N m on the {_ends(train)[0]}{speed}, {len(train.meshes)} meshes, {_motion(train)}"
+
+
+def _ends(train: TrainScene) -> tuple[str, str]:
+    """What is driven, and what drives the load."""
+    return ("input", "output") if any(part.shafts.carrier for part in train.parts) else ("first shaft", "last shaft")
 
 
 def _motion(train: TrainScene) -> str:
@@ -107,6 +125,8 @@ def _bearing_rows(dataset: xr.Dataset) -> list[tuple[str, ...]]:
     forces = np.stack([dataset[f"bearing_force_{axis}"].values for axis in "xyz"])
     largest = np.linalg.norm(forces, axis=0).max(axis=0)
     means = forces.mean(axis=1).T
+    # What a bearing does not carry along its axis is round-off.
+    means[np.abs(means) < LEAST_LISTED * largest.max()] = 0.0
     names, places = (dataset[name].values for name in ("bearing", "bearing_place"))
     return [
         (str(name), digits(place), *(digits(each) for each in mean), digits(most))
@@ -140,10 +160,10 @@ def _summary(dataset: xr.Dataset, train: TrainScene) -> PageSection:
         )
         for name, words in (("peak_to_peak", "peak to peak"), ("mean", "mean"))
     ]
-    tiles.append(Tile("Ratio", digits(train.ratio), "", "turns of the first shaft in one of the last"))
-    for words, torque in (("first", train.input_torque), ("last", train.output_torque)):
-        value = digits(torque * factor("N mm", "N m"))
-        tiles.append(Tile(f"Torque on the {words} shaft", value, "N m", "without losses" if words == "first" else ""))
+    first, last = _ends(train)
+    tiles.append(Tile("Ratio", digits(train.ratio), "", f"turns of the {first} in one of the {last}"))
+    for words, torque, note in ((first, train.input_torque, "without losses"), (last, train.output_torque, "")):
+        tiles.append(Tile(f"Torque on the {words}", digits(torque * factor("N mm", "N m")), "N m", note))
     if "friction_loss" in said:
         efficiency = said["efficiency"] if "efficiency" in said else power_flow(dataset, train).efficiency
         tiles.append(Tile("Efficiency", f"{100.0 * efficiency:.4g}", "%", "of all meshes, by their friction"))
@@ -169,93 +189,11 @@ def _of_mesh(mesh: MeshOfScene) -> tuple[str, ...]:
     )  # fmt: skip
 
 
-def _powers(dataset: xr.Dataset, train: TrainScene) -> list[PageSection]:
-    """The power flow of each part of a train."""
-    if not train.joined:
-        return [_power(dataset, train)]
-    sets = iter(set_runs(dataset))
-    found = []
-    for number, (first, part) in enumerate(train.numbered, 1):
-        of_meshes = dataset.isel(mesh=slice(first, first + len(part.meshes)))
-        own = _power(of_meshes if part.shafts.carrier is None else next(sets), part)
-        found.append(replace(own, name=f"power-{number}", heading=f"Power flow: {part.title}"))
-    return found
-
-
-def _power(dataset: xr.Dataset, train: TrainScene) -> PageSection:
-    if train.shafts.carrier is not None:
-        return _members(dataset, train)
-    flow = power_flow(dataset, train)
-    rows = [
-        (
-            f"shaft {number}",
-            "counter-clockwise" if sense > 0 else "clockwise",
-            digits(each.torque * factor("N mm", "N m")),
-            *((digits(60.0 * each.speed), digits(1e-6 * each.power)) if flow.speed_given else ()),
-        )
-        for number, (each, sense) in enumerate(zip(flow.shafts, train.graph.senses), 1)
-    ]
-    of_speed = ("Speed (rpm)", "Power (kW)") if flow.speed_given else ()
-    loads = [digits(load * factor("N mm", "N m")) if load else "" for load in train.loads]
-    several = len(loads) - loads.count("") > 1
-    if several:
-        rows = [(*row[:3], load, *row[3:]) for row, load in zip(rows, loads)]
-    of_speed = ("Its load (N m)", *of_speed) if several else of_speed
-    headings = ("Shaft", "Turns", "Torque (N m)", *of_speed)
-    blocks: list[Block] = [Table(headings, rows, "Shafts, the first one driven", numbers=2), *_shares(dataset)]
-    if train.shafts.ramp is not None:
-        blocks.append(Words("Speeds and powers are those at the start of the speed ramp, without what accelerates it."))
-    if not flow.speed_given:
-        blocks.append(Words("The scene has no speed (`motion.input_speed`), and so no power."))
-    lost = [(each.name, f"{100.0 * each.efficiency:.4g}") for each in flow.meshes]
-    if lost:
-        blocks.append(Table(("Mesh", "Efficiency (%)"), lost, "Friction in the meshes"))
-        blocks.append(
-            Words("The last shaft has the torque of the load. Before each mesh the torque is higher by what it loses.")
-        )
-    return PageSection("power", "Power flow", blocks)
-
-
-def _members(dataset: xr.Dataset, train: TrainScene) -> PageSection:
-    """Members of a planetary set, and how the planets share the load."""
-    of_speed = ("Speed (rpm)", "Power (kW)") if train.speed_given else ()
-    headings = ("Member", "Part", "Torque (N m)", "Turns in one of the input", *of_speed)
-    blocks: list[Block] = [
-        Table(headings, _member_rows(train, dataset), "Members, mean torques through them", numbers=2)
-    ]
-    return PageSection("power", "Power flow", [*blocks, *planet_shares(train, dataset), *orbits(train, dataset)])
-
-
-def _member_rows(train: TrainScene, dataset: xr.Dataset) -> list[tuple[str, ...]]:
-    """Rows of the members: name, part, speed over the input's, rpm and kW where there is a speed, mean torque."""
-    carrier = train.shafts.carrier
-    assert carrier is not None
-    own = carrier.set
-    rows: list[tuple[str, ...]] = []
-    for place, member in enumerate(dataset["member"].values.tolist()):
-        torque = float(dataset["member_torque"][:-1, place].mean())
-        part = {own.fixed: "fixed", own.input: "input", own.output: "output"}[member]
-        speed = float(own.speeds[member])
-        row: tuple[str, ...] = (member, part, f"{1e-3 * torque:.6g}", f"{speed:.6g}")
-        if carrier.speed is not None:
-            row += (f"{60.0 * carrier.speed * speed / (2.0 * pi):.6g}", f"{1e-6 * torque * carrier.speed * speed:.5g}")
-        rows.append(row)
-    return rows
-
-
-def _shares(dataset: xr.Dataset) -> list[Block]:
-    """How paths share the torque, where there are several."""
-    if SHARE not in dataset:
-        return []
-    names = [str(each) for each in dataset["mesh"].values]
-    numbers = [100.0 * dataset[each].values for each in OF_SHARES]
-    rows = [(name, *map(digits, own)) for name, own in zip(names, zip(*numbers))]
-    words = "Shares of the torque that all meshes on the same shaft carry"
-    return [Table(("Mesh", "Mean (%)", "Largest (%)", "Least (%)"), rows, words)]
-
-
 def _orders(dataset: xr.Dataset, train: TrainScene) -> PageSection:
-    charts = train_orders(train, dataset)
+    try:
+        charts = train_orders(train, dataset)
+    except SceneError as error:
+        return sentence("orders", "Orders of the overall transmission error", as_sentence(str(error)), True)
     if train.shafts.ramp is not None:
         return PageSection("orders", "Orders of the overall transmission error over the speed", charts)
     found = sorted(overall_orders(dataset, train, turns=True), key=lambda each: -each.amplitude)[:LISTED_ORDERS]
@@ -269,13 +207,12 @@ def _orders(dataset: xr.Dataset, train: TrainScene) -> PageSection:
         if each.amplitude > least
     ]  # fmt: skip
     of_speed = ("Frequency (Hz)",) if train.speed_given else ()
-    headings = ("Mesh", "Harmonic", "Order of the first shaft", "Amplitude (µrad)", *of_speed)
+    headings = ("Mesh", "Harmonic", f"Order of the {_ends(train)[0]}", "Amplitude (µrad)", *of_speed)
     return PageSection("orders", "Orders of the overall transmission error", [*charts, Table(headings, rows)])
 
 
-def _mesh(dataset: xr.Dataset, train: TrainScene, number: int) -> PageSection:
+def _mesh(run: ShownRun, number: int, name: str) -> PageSection:
     """What a mesh has as a pair: shares of its tooth pairs, pressure, line load over the face."""
-    run = ShownRun(mesh_run(dataset, train, number))
     charts = list(pair_forces(run))[:1]
     charts += largest_pressures(run) if has_pressure(run) else []
     said: list[Block] = []
@@ -284,5 +221,4 @@ def _mesh(dataset: xr.Dataset, train: TrainScene, number: int) -> PageSection:
         attributes = run.dataset.attrs
         said = [Words(words.format(attributes[name])) for name, words in FACTORS.items() if name in attributes]
     rows = result_rows(run.dataset)
-    name = train.meshes[number].name
     return PageSection(f"mesh-{number + 1}", f"Mesh: {name}", [*charts, *said, Facts(rows, f"Of mesh {name}")])

@@ -9,7 +9,7 @@ from os.path import exists, isdir
 from pathlib import Path
 from typing import Any
 
-from fenics_gears import OVERALL, SceneError
+from fenics_gears import OVERALL, SceneError, carried_train
 from fenics_gears.command_line import (
     CASES,
     JOURNAL,
@@ -21,7 +21,6 @@ from fenics_gears.command_line import (
     print_files,
     run_or_journal,
     shown_progress,
-    stages_beside,
     write_whole,
 )
 from fenics_gears.many_runs import load_combined
@@ -31,9 +30,8 @@ from fenics_gears.shown import ShownRun, stored_index
 from .layout import laid_out, load_layout
 from .run_page import run_page
 from .study_page import study_page
-from .train_page import train_page
+from .train_page import mesh_runs, train_page
 
-EFFECTS_FILES = "effects.csv", "effects.png"
 ENDINGS = (".html", ".htm")
 
 
@@ -97,29 +95,41 @@ def output_file(asked: Path | None, file: Path, is_study: bool) -> Path:
 
 def _check(options: argparse.Namespace, file: Path, output: Path, is_study: bool) -> None:
     check_writable(output.parent, output.name)
-    if options.effects and not is_study:
-        check_writable(file.parent, *EFFECTS_FILES)
     if is_study and (options.effects or options.at is not None):
         raise SceneError("--effects and --at are for a run; this is a study. Leave them out, or name one of its cases.")
 
 
 def _run(options: argparse.Namespace, file: Path, writing: _Writing, progress) -> list[Path]:
     dataset = loaded_run(file, trains=True)
+    asked = {"at": options.at, "stress": not options.no_stress}
     if OVERALL in dataset:
-        if options.effects or options.at is not None:
-            raise SceneError(f"--effects and --at are for the run of a pair. {stages_beside(file)}")
-        meshes = {str(name): of.values for name, of in dataset.variables.items() if of.dims == ("mesh",)}
-        micrometres = 1e3 * meshes["base_radius_wheel"]
-        return [writing.write(train_page(dataset, file, progress), meshes | dataset.attrs, micrometres)]
-    run = ShownRun(dataset, file, at=options.at, stress=not options.no_stress)
+        return _train(options, file, dataset, writing, progress, asked)
+    run = ShownRun(dataset, file, **asked)
+    if run.steps:
+        _check_time(run)
     written = []
-    if options.at is not None and run.steps:
-        stored_index(run.dataset, options.at)
     if options.effects:
         if run.scene is None:
             raise SceneError(f"{file}: the scene in it is none of this version. Run the scene again.")
         written = options.effects(run.scene, file.parent, progress)
     return [*written, writing.write(run_page(run, progress), dataset.attrs, run.micrometres)]
+
+
+def _train(options, file: Path, dataset, writing: _Writing, progress, asked: Mapping[str, Any]) -> list[Path]:
+    train = carried_train(dataset)
+    runs = mesh_runs(dataset, train, file, **asked)
+    for run in runs.values():
+        _check_time(run)
+    written = options.effects(train, file.parent, progress) if options.effects else []
+    numbers = {str(name): of.values for name, of in dataset.variables.items() if of.dims == ("mesh",)}
+    page = train_page(dataset, train, runs, file, progress)
+    return [*written, writing.write(page, numbers | dataset.attrs, 1e3 * numbers["base_radius_wheel"])]
+
+
+def _check_time(run: ShownRun) -> None:
+    """Raises SceneError where a time is asked for that the run has not stored."""
+    if run.at is not None:
+        stored_index(run.dataset, run.at)
 
 
 def _study(options: argparse.Namespace, file: Path, writing: _Writing, progress) -> list[Path]:

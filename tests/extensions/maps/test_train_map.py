@@ -29,6 +29,19 @@ def scene(tmp_path):
     return file
 
 
+def test_orders_that_runs_do_not_tell_apart_are_left_out(tmp_path):
+    """Shafts that twist, at rest, a cycle each: a map of all else, as the run itself has it."""
+    file = gearbox_file(tmp_path)
+    twist = '[shafts.one]\ncarries = ["first.wheel", "second.pinion"]\ntorsional_stiffness = "1e8 N mm/rad"\n'
+    file.write_text(file.read_text() + twist)
+    assert main(["map", str(file), "--loads", "200 N m", "400 N m", "-o", str(tmp_path / "out"), "-q"]) == 0
+    found = xr.load_dataset(tmp_path / "out" / "map.nc")
+    run = simulate_train(load_train(file))
+    assert found.sizes["order"] == 0 and "too few to tell order" in run.attrs["warnings"]
+    assert float(found[WHOLE].sel(load=400.0)) == pytest.approx(1e6 * run.attrs[WHOLE], rel=1e-9)
+    assert (tmp_path / "out" / "over_load.png").stat().st_size > 100
+
+
 def test_a_map_of_a_train_has_what_its_runs_have(scene, tmp_path, capsys):
     """At rest that of the train without inertia, at its own speed that of the train itself; pictures and tables."""
     out = tmp_path / "out"

@@ -49,6 +49,21 @@ def gearbox(tmp_path, monkeypatch):
     return text
 
 
+def test_orders_that_a_run_does_not_tell_apart_are_no_goal(gearbox, tmp_path):
+    """Of stages that move together for one cycle: said of the design; its other goals are there."""
+    twist = '[shafts.one]\ncarries = ["first.wheel", "second.pinion"]\ntorsional_stiffness = "1e8 N mm/rad"\n'
+    Path("gearbox.toml").write_text(gearbox + twist)
+    goal = "weighted_orders = 1\n[orders]\nfirst = [1]\n"
+    for text in (DESIGN, DESIGN.replace(f"{OVERALL_ERROR} = 1\n", goal)):
+        Path("design.toml").write_text(text)
+        design = load_design(Path("design.toml"))
+        with Interruption(SilentProgress()) as progress:
+            (tmp_path / "runs").mkdir(exist_ok=True)
+            (found,) = Evaluator(design, tmp_path / "runs", Alone(), progress).of_designs([VALUES], samples(design))
+        assert ("Allowed: 2 or more, by motion.mesh_cycles" in found.failure) == ("orders" in text)
+        assert bool(found.goals) == ("orders" not in text)
+
+
 def test_a_design_is_judged_by_the_run_of_its_train(gearbox, tmp_path):
     """The overall error in urad of the last shaft; of what each mesh has, the largest, errors on the wheel's base
     circle."""

@@ -4,6 +4,7 @@ import base64
 import csv
 import json
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -14,7 +15,6 @@ from tests.paper_text import coarse_text
 from fenics_gears import results
 from fenics_gears.commands.cli import main
 from fenics_gears.extensions.measuring import work
-from fenics_gears.extensions.measuring.effect_costs import measured
 from fenics_gears.extensions.measuring.effect_costs.table import CSV_COLUMNS
 from fenics_gears.results.pairs import contact_times
 
@@ -185,7 +185,8 @@ def test_effects_are_measured_when_asked_for(run, tmp_path, monkeypatch):
     dataset = results.load(run / "run.nc")
     error = dataset.attrs["peak_to_peak_transmission_error"] * dataset.attrs["base_radius_wheel"]
     asked = []
-    monkeypatch.setattr(measured, "measure", lambda scene, progress: asked.append(scene.text) or "measured")
+    measure = lambda scene, progress: asked.append(scene.text) or "measured"  # noqa: E731
+    monkeypatch.setattr(work, "EFFECTS", replace(work.EFFECTS, measure=measure))
 
     def write(own, found, directory, name):
         assert (found, directory, name) == ("measured", tmp_path, "effects")
