@@ -226,7 +226,9 @@ def test_a_cutter_cuts_off_corners_as_a_sharp_pinion_would(teeth):
 
 
 def test_pairs_that_cannot_run_are_refused():
-    """Interference with the pinion's fillet; too far apart."""
+    """Interference with the pinion's fillet; too far apart; shifts whose operating pressure angle is below zero."""
+    with pytest.raises(GeometryError, match="they fit at no centre distance, but with smaller"):
+        check_pair(GearPair(replace(PLANET, profile_shift=0.9), ring(), -78.0, 50.0))
     with pytest.raises(GeometryError, match="pinion: interference"):
         check_pair(planet_in_ring(tip=118.0))
     with pytest.raises(GeometryError, match="common tangent"):
