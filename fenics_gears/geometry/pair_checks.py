@@ -86,11 +86,14 @@ def _centres(pair: GearPair) -> Mistakes:
 
 def _backlash(pair: GearPair) -> Mistakes:
     if pair.backlash < -PRINTED_DIGITS * pair.pinion.module:
+        fits = abs(pair.centre_distance_without_backlash)
+        where = f"from {fits:.6g} mm {'down' if pair.wheel.internal else 'up'} (gears.centre_distance), or"
+        if pair.wheel.internal and fits <= abs(sum(pair.base_radii)) * (1.0 + 1e-9):
+            # Nearer to each other the base circles have no common tangent.
+            where = "at no centre distance, but"
         yield (
             f"pair: no backlash: the teeth overlap by {-pair.backlash:.4g} mm along the line of action at centre"
-            f" distance {abs(pair.centre_distance):.6g} mm; they fit from"
-            f" {abs(pair.centre_distance_without_backlash):.6g} mm {'down' if pair.wheel.internal else 'up'}"
-            " (gears.centre_distance), or with smaller profile shifts of both gears",
+            f" distance {abs(pair.centre_distance):.6g} mm; they fit {where} with smaller profile shifts of both gears",
             (),
         )
 

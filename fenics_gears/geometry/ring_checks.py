@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
-from math import isfinite, isnan, pi, sin
+from math import inf, isfinite, isnan, pi, sin
 from typing import TYPE_CHECKING
 
 from .gear_data import LEAST_RIM, ROUNDING
@@ -90,6 +90,12 @@ def ring_cutting(gear: Gear, section: str) -> Mistakes:
                 f" flank inside of diameter {least:.6g} mm, but its tip diameter is {-2.0 * gear.tip_radius:.6g} mm",
                 (("lower", "tip_diameter"),),
             )
+        elif (clearance := _corner_clearance(gear)) < -ROUNDING:
+            yield (
+                f"cutter: its teeth would cut {-clearance:.4g} mm off the tips of the ring's teeth, off the line of"
+                f" action: {_fewer_teeth(gear, section)}",
+                (),
+            )
     room = room_beside(gear)
     if not room >= -ROUNDING / abs(gear.root_radius):
         yield (
@@ -97,6 +103,26 @@ def ring_cutting(gear: Gear, section: str) -> Mistakes:
             f" {ring_tip_radius_with_room(gear):.4g}",
             (("lower", "rack_tip_radius"),),
         )
+
+
+def _corner_clearance(gear: Gear) -> float:
+    """Least arc (mm) between the cutter's teeth and the paths of the tip corners of the ring's; infinite without a
+    cutter that could be."""
+    fillet = gear.ring_fillet
+    if not isinstance(fillet, CutFillet) or isnan(fillet.pressure_angle) or isnan(fillet.tangent_length):
+        return inf
+    half_space = 0.5 * abs(gear.angular_pitch) - 0.5 * gear.tip_thickness / abs(gear.tip_radius)
+    return fillet.corner_clearance(abs(gear.tip_radius), half_space)
+
+
+def _fewer_teeth(gear: Gear, section: str) -> str:
+    """The most teeth of a cutter that cuts the whole ring, in words."""
+    cutter = gear.cutter
+    for teeth in range(cutter.teeth - 1, 4, -1) if cutter else ():
+        cut = replace(gear, cutter=replace(cutter, teeth=teeth))
+        if not any(ring_cutting(cut, section)):
+            return f"lower {section}.cutter.teeth to {teeth}"
+    return f"lower {section}.cutter.teeth, or raise {section}.tip_diameter"
 
 
 def ring_tip(gear: Gear, section: str) -> Mistakes:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from math import atan, atan2, cos, nan, pi, sin, sqrt
+from math import acos, atan, atan2, cos, nan, pi, sin, sqrt
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -18,6 +18,10 @@ from .involute import inverse_involute
 
 if TYPE_CHECKING:
     from .gear import Gear
+
+
+# Places on the path of a corner.
+SAMPLES = 2000
 
 
 @dataclass(frozen=True)
@@ -116,6 +120,25 @@ class CutFillet:
         operating = self.cutter_base / cos(self.pressure_angle)
         along = self.tangent_length - operating * sin(self.pressure_angle)
         return atan2(along * cos(self.pressure_angle), operating + along * sin(self.pressure_angle))
+
+    def corner_clearance(self, tip: float, half_space: float) -> float:
+        """Least arc (mm) about the cutter's centre from its tooth to the path of the corner of the ring's tooth, at the
+        radius `tip` (mm) and the angle `half_space` (rad) from the middle of the space; negative where the cutter cuts
+        the corner off."""
+        outermost = (tip**2 + self.centre_distance**2 - self.tip**2) / (2.0 * tip * self.centre_distance)
+        outermost = acos(max(-1.0, min(1.0, outermost)))
+        place = np.linspace(-outermost, outermost, SAMPLES)
+        seen = tip * np.exp(1j * place) - self.centre_distance
+        seen *= np.exp(-1j * (place - half_space) * self.ring_teeth / self.teeth)
+        radius = np.abs(seen)
+        roll = np.sqrt(np.maximum((radius / self.cutter_base) ** 2 - 1.0, 0.0))
+        involute = self.half_angle - roll + np.arctan(roll)
+        middle = self.tip - self.rounding
+        cosine = (middle**2 + radius**2 - self.rounding**2) / (2.0 * middle * radius)
+        rounded = self.corner_angle + np.arccos(np.minimum(cosine, 1.0))
+        on_involute = roll * self.cutter_base < self.tangent_length + self.rounding
+        arcs = radius * (np.angle(seen) - np.where(on_involute, involute, rounded))
+        return float(np.min(arcs, where=radius < self.tip, initial=np.inf))
 
     def point(self, parameter, aside: float):
         """As of `PlainFillet`; the cutter's tooth stands in the middle of the space, wherever the involute begins."""

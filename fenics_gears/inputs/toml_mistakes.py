@@ -34,6 +34,9 @@ def _said(own: str, written: str, text: str, number: int) -> Iterator[str]:
     if own.startswith(("Cannot overwrite a value", "Cannot mutate", "Cannot redefine")):
         if field := _FIELD.match(written):
             yield f"{field[1]} is given twice{_first(text, field[1], number)}. Leave one out."
+        if written.startswith("[["):
+            name = written.strip("[] ")
+            yield f"{name} is given above{_first(text, name, number)}. Write [[{name}]] there too, or leave one out."
     if any(each in written for each in _CURLED):
         yield 'has typographic quotes. Write straight ones: ".'
     if own.startswith("Unclosed") or own == "Expected ']' at the end of an array":

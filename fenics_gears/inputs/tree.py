@@ -96,12 +96,12 @@ def quantity_at(tree: Tree, *path: str) -> float | None:
     return quantity_in(value_at(tree, *path))
 
 
-def quantity_in(value: Any) -> float | None:
-    """The number in N, mm, s, rad; None for what is no quantity."""
+def quantity_in(value: Any, *kinds: str) -> float | None:
+    """The number in N, mm, s, rad; None for what is no quantity, or none of some kinds."""
     if not isinstance(value, str):
         return None
     try:
-        return units.quantity(value)[0]
+        return units.of_kind(value, *kinds)[0] if kinds else units.quantity(value)[0]
     except units.QuantityError:
         return None
 
@@ -142,16 +142,16 @@ def in_normal_section(name: str, number: float, helix_angle: float) -> float:
 
 def module_in(tree: Tree) -> float | None:
     """The normal module (mm) of a parsed scene, however it is given; None where there is none that can be read."""
-    return _of_teeth(tree, MODULES)
+    return _of_teeth(tree, MODULES, "a length", "a diametral pitch (1/length)")
 
 
 def pressure_angle_in(tree: Tree) -> float | None:
     """The pressure angle (rad) of the normal section of a parsed scene, like ``module_in``."""
-    return _of_teeth(tree, PRESSURE_ANGLES)
+    return _of_teeth(tree, PRESSURE_ANGLES, "an angle")
 
 
-def _of_teeth(tree: Tree, names: Sequence[str]) -> float | None:
-    given = [(name, number) for name in names if (number := quantity_at(tree, "gears", name))]
+def _of_teeth(tree: Tree, names: Sequence[str], *kinds: str) -> float | None:
+    given = [(name, number) for name in names if (number := quantity_in(value_at(tree, "gears", name), *kinds))]
     return in_normal_section(*given[0], quantity_at(tree, "gears", "helix_angle") or 0.0) if given else None
 
 

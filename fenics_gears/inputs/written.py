@@ -43,6 +43,8 @@ def as_toml(tree: Mapping[str, Any]) -> str:
     [load]
     wheel_torque = "437 N m"
     """
+    if not isinstance(tree, Mapping):
+        raise TypeError(f"{type(tree).__name__} is no dictionary")
     return "\n".join(_section_lines(tree, ())).strip() + "\n"
 
 

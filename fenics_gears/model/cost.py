@@ -245,7 +245,9 @@ def too_large(model: Model, cost: ExpectedCost, allowed: float) -> str:
 
 def refused(cost: ExpectedCost, allowed: float, fits: str, target: str = "") -> str:
     """Why a run does not fit, and what to change: settings that fit, in words, if there are any, or a `target`."""
-    less = f"{fits} in [accuracy] fit" if fits else "Larger elements, fewer mesh cycles or time steps take less"
+    less = (
+        f"It fits with {fits} in [accuracy]" if fits else "Larger elements, fewer mesh cycles or time steps take less"
+    )
     return (
         f"The run would take {cost.held / 1e9:.3g} GB of memory, contact operators apart, and {allowed / 1e9:.3g} GB"
         f" are allowed. Nothing was computed. {less}.{target} `--memory` or FENICS_GEARS_MEMORY allow more."

@@ -142,8 +142,8 @@ def _check_alike(models: Sequence[Model], gear: str, sides: Sequence[tuple[int, 
         widths |= {width for each in (one, other) for width in each.pair.effective_face_widths}
         if len(widths) > 1:
             raise SceneError(
-                f"{gear}: gears that are not equally wide are not yet computed in {name} and {other_name}, which have"
-                f" it in common. Allowed: one face_width for both. {NOTHING_DONE}"
+                f"{gear}: it meshes in {name} and in {other_name}, whose gears are not equally wide. This is not"
+                f" computed yet. Allowed: one face_width for all of them. {NOTHING_DONE}"
             )
         materials = [each.scene.gears.material_of(GEARS[at]) for each, at in ((one, side), (other, other_side))]
         if materials[0] != materials[1]:

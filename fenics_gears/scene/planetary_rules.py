@@ -183,6 +183,10 @@ def _wrong_members(path: tuple[str, ...], text: PlanetaryText, members: tuple[st
     if text.floating and count < 3:
         said = "needs three planets: two do not centre a member that nothing else holds. Leave it out."
         yield Problem((*path, "floating"), "a list", said)
+    if len(set(text.floating or ())) > 1:
+        # The planets roll: for any way of one centre there is one of the other at which all gaps stay as they are.
+        said = "lets both centres move aside while the planets roll between them: nothing stops them. Leave one out."
+        yield Problem((*path, "floating"), "a list", said)
     yield from _wrong_carrier(path, text, count)
     yield from _wrong_vibration(path, text)
     yield from _wrong_run_outs((*path, "eccentricity"), text, count)

@@ -254,8 +254,8 @@ class PlanetaryText(Section):
     )
     floating: tuple[str, ...] | None = declared(
         AllowedMembers(
-            description='a list of "sun", "ring" and "second_sun", such as ["sun"]',
-            meaning="members whose centre nothing holds but their meshes; three planets or more centre them",
+            description='a list of one of "sun", "ring" and "second_sun", such as ["sun"]',
+            meaning="member whose centre nothing holds but its meshes; three planets or more centre it",
             otherwise="centres are held",
             names=(SUN, RING, SECOND_SUN),
         )

@@ -91,17 +91,17 @@ def _of_another_type(data: Any, home: str) -> Iterator[str]:
         value = getattr(data, field.name)
         place = f"{home}{field.name}"
         kinds = str(getattr(field.type, "__name__", field.type)).split(" | ")
-        if is_dataclass(value):
-            yield from _of_another_type(value, f"{place}.")
+        section = kinds[0].rpartition(".")[2]
+        if field.name not in WORDS and section[:1].isupper() and not (value is None and "None" in kinds):
+            if section not in (each.__name__ for each in type(value).__mro__):
+                yield f"{place} = {value!r} is of type {type(value).__name__}. Allowed: the data of a scene, {section}."
+            elif is_dataclass(value):
+                yield from _of_another_type(value, f"{place}.")
         elif kinds[0] in _OF_TYPE and not (value is None and "None" in kinds):
             allowed = [_OF_TYPE[kind] for kind in kinds if kind in _OF_TYPE]
             if not isinstance(value, tuple(python for python, _ in allowed)):
                 words = " or ".join(said for _, said in allowed)
                 yield f"{place} = {value!r} is of type {type(value).__name__}. Allowed: {words}."
-        elif (
-            not home and "None" not in kinds and kinds[0].isidentifier() and (value is None or value.__class__ is dict)
-        ):
-            yield f"{place} = {value!r} is of type {type(value).__name__}. Allowed: the data of a scene, {kinds[0]}."
 
 
 def section_trees(scene: Scene) -> dict[str, Any]:

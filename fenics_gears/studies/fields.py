@@ -2,7 +2,7 @@
 numbers from 1: ``shafts.input.sections.2.diameter``. Those of a train too: ``stages.first.pinion.profile_shift``."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 from fenics_gears.errors import SceneError
@@ -82,6 +82,13 @@ def why_unknown(path: Path) -> str | None:
 def of_stages() -> dict[Path, bool]:
     """Every path within a stage of a train; True for a section, False for a field."""
     return paths_in(stage_text())
+
+
+def second_load(paths: Iterable[Path]) -> tuple[Path, str] | None:
+    """Of fields that vary together the second one that gives the load, and why it cannot: a `changed` scene has the
+    last one alone. None without one."""
+    loads = [path for path in dict.fromkeys(paths) if path[0] == "load" and path[-1] in ALL_LOADS]
+    return (loads[1], f"gives the load, as {'.'.join(loads[0])} does. Leave one out.") if len(loads) > 1 else None
 
 
 def changed(tree: Mapping[str, Any], path: Path, value: Any) -> dict[str, Any]:

@@ -200,6 +200,8 @@ def _check_overlaps(without, fixed, axes: tuple[Axis, ...], mistakes: Mistakes) 
             mistakes.add(("set", dotted), None, "is swept too. Leave it out of [set].")
         if swept.count(path) > 1:
             mistakes.add(("sweep", dotted), None, "is swept twice.")
+    if (second := fields.second_load(swept)) is not None:
+        mistakes.add(("sweep", ".".join(second[0])), None, second[1])
     for path in without:
         if path in fixed or path in swept:
             message = "is set or swept as well. Leave it out of one of the two."

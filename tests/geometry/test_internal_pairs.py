@@ -6,7 +6,7 @@ from math import cos, degrees, pi, sin, sqrt, tan
 import numpy as np
 import pytest
 from scipy.optimize import brentq, minimize_scalar
-from tests.internal import ANGLE, MODULE, planet_in_ring, ring
+from tests.internal import ANGLE, MODULE, PLANET, planet_in_ring, ring
 
 from fenics_gears import Gear, GeometryError
 from fenics_gears.contact.tooth_pair import drive_place, facing_points_at
@@ -203,6 +203,8 @@ def test_radial_assembly_needs_more_teeth_than_running():
         ({"outer": 127.1}, "no rim"),
         ({"cutter": 70}, "cannot cut 61 internal teeth"),
         ({"cutter": 8}, "undercut at the tip"),
+        ({"cutter": 54}, "0.4251 mm off the tips .* lower gears.wheel.cutter.teeth to 52"),
+        ({"cutter": 60}, "off the tips"),
     ],
 )
 def test_rings_that_cannot_be_are_refused(changed, words):
@@ -211,8 +213,22 @@ def test_rings_that_cannot_be_are_refused(changed, words):
         check_gear(ring(**{"tip": 118.0, **changed}), "wheel")
 
 
+@pytest.mark.parametrize("teeth", [23, 44, 52, 56, 58])
+def test_a_cutter_cuts_off_corners_as_a_sharp_pinion_would(teeth):
+    """Another route: the corner's way through a pinion of the cutter's sizes, which meets it at the ring's pitch. On
+    the path of contact the corner touches the cutter's involute and comes no nearer, 1e-5 mm."""
+    cut = ring(teeth, tip=118.0)
+    fillet = replace(cut.ring_fillet, rounding=0.0)
+    half_space = 0.5 * abs(cut.angular_pitch) - 0.5 * cut.tip_thickness / 118.0
+    pinion = replace(PLANET, teeth=teeth, tip_radius=fillet.tip, root_radius=0.5 * MODULE * (teeth - 2.6))
+    expected = min(fillet_clearance(pinion, cut, -fillet.centre_distance), 0.0)
+    assert fillet.corner_clearance(118.0, half_space) == pytest.approx(expected, rel=0.02, abs=1e-5)
+
+
 def test_pairs_that_cannot_run_are_refused():
-    """Interference with the pinion's fillet; too far apart."""
+    """Interference with the pinion's fillet; too far apart; shifts whose operating pressure angle is below zero."""
+    with pytest.raises(GeometryError, match="they fit at no centre distance, but with smaller"):
+        check_pair(GearPair(replace(PLANET, profile_shift=0.9), ring(), -78.0, 50.0))
     with pytest.raises(GeometryError, match="pinion: interference"):
         check_pair(planet_in_ring(tip=118.0))
     with pytest.raises(GeometryError, match="common tangent"):

@@ -63,6 +63,8 @@ def test_what_no_file_can_hold_is_refused(sections, said):
     """TOML."""
     with pytest.raises(SceneError, match=said):
         build_scene(DEMO | sections)
+    with pytest.raises(SceneError, match="NoneType is no dictionary"):
+        build_scene(None)
 
 
 def test_a_notebook_shows_fields_with_units_and_meanings(paper_scene):

@@ -74,7 +74,7 @@ def test_what_a_drawing_leaves_out_gives_a_pair_that_runs():
         ('support = "held"', 'support = "points"', '"held", "foundation"'),
         ("teeth = -61,", 'teeth = -61, base_tangent_length = "30 mm",', "not computed for an internal gear"),
         ("teeth = -61,", "teeth = 61, ring_gear = true,", "negative number of teeth"),
-        ("teeth = -61", "teeth = -24", "interference"),
+        ("teeth = -61", "teeth = -24", "its teeth would cut 5.183 mm off the tips"),
         ("teeth = -61", "teeth = -20", "cannot cut 20 internal teeth"),
     ],
 )  # fmt: skip

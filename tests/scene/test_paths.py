@@ -43,7 +43,7 @@ LOAD = '[load]\noutput_torque = "400 N m"'
         (TWO.replace('"2.0 mm"', '"2.5 mm"', 1), "in2.module: gear in1.pinion has another module in in1"),
         (split_text(of_shaft='clocking = "2 rad"'), "clocking.*is too large"),
         (row([24, 31, 40], [0, 60], 100).text + '[shafts.x]\ncarries = ["row.2"]\nclocking = "1 mrad"', "in a loop"),
-        (TWO.replace('"20 mm"', '"25 mm"', 1), "equally wide are not yet computed in in1 and in2"),
+        (TWO.replace('"20 mm"', '"25 mm"', 1), "in in1 and in in2, whose gears are not equally wide"),
         (TWO.replace('"steel"', '"POM"', 1), "in1.pinion: has another material in in2 than in in1"),
         (TWO.replace("direction", 'tip_relief = { depth = "9 um", start = "HPSTC" }\ndirection', 1), "by up to 9 um"),
     ],

@@ -43,6 +43,7 @@ IN_TIME = f"{IN_TIME.replace('[inertia]', '')}\n[inertia]\n".replace(
         (planetary_text(planets=""), "a number of planets, equally spaced; or planet_angles"),
         (planetary_text(planets="planets = 2\nplanet_angles = []"), "planet_angles"),
         (planetary_text(more='floating = ["sun"]'), "floating.*\n.*needs three planets"),
+        (planetary_text((20, 16, 52), "planets = 3", more='floating = ["sun", "ring"]'), "floating.*\n.*planets roll"),
         (planetary_text(more='floating = ["carrier"]'), '"carrier", which is none of them'),
         (planetary_text(more='carrier = { pin_errors = ["1 um"] }'), "has 1 entries for 2 planets"),
         (planetary_text(more='carrier = { pins = "1 um" }'), "carrier.pins.*\n.*not known here"),
@@ -115,7 +116,7 @@ IN_TIME = f"{IN_TIME.replace('[inertia]', '')}\n[inertia]\n".replace(
             "friction where the ring drives",
         ),
         (THIN, r"ring: thin rim: free between three planets .*stages.set.ring.support = .held."),
-        (planetary_text().replace("teeth = 18", "teeth = 18, face_width = \"30 mm\""), "equally wide are not yet"),
+        (planetary_text().replace("teeth = 18", "teeth = 18, face_width = \"30 mm\""), "not equally wide"),
     ],
 )  # fmt: skip
 def test_mistakes_are_told(text, said):

@@ -168,5 +168,10 @@ def test_a_scene_changed_to_what_no_file_may_have_is_refused(paper_scene, sectio
     refuse_wrong(paper_scene)
     with pytest.raises(SceneError, match=f"(?s){words}.*Nothing was computed"):
         simulate(replace(paper_scene, **{section: replace(getattr(paper_scene, section), **changes)}))
-    with pytest.raises(SceneError, match="load = None is of type NoneType"):
-        simulate(replace(paper_scene, load=None))
+    for name, value, kind in (
+        ("load", None, "NoneType"),
+        ("friction", 0.1, "float"),
+        ("inertia", paper_scene.load, "Load"),
+    ):
+        with pytest.raises(SceneError, match=f"{name} = .* is of type {kind}. Allowed: the data of a scene"):
+            simulate(replace(paper_scene, **{name: value}))

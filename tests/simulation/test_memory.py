@@ -44,8 +44,8 @@ def test_check_says_that_a_scene_cannot_fit(tmp_path, monkeypatch, capsys):
     told = capsys.readouterr()
     assert "Effects" in told.out
     found = re.search(
-        r"CANNOT FIT: The run would take [\d.]+ GB .* 8 GB are allowed.* computed. (body_element_size = .*, layers = .*"
-        r", slices = \d+) in \[accuracy\] fit.*target = .*--memory",
+        r"CANNOT FIT: The run would take [\d.]+ GB .* 8 GB are allowed.* computed. It fits with (body_element_size = "
+        r".*, layers = .*, slices = \d+) in \[accuracy\]\..*target = .*--memory",
         told.err,
     )
     assert main(["check", str(wide), "--memory", "1 TB"]) == 0

@@ -172,6 +172,10 @@ WRONG = {
         '[sweep]\nfriction = ["absent", "present"]\nfriction.coefficient = [0.1]',
         ["friction.coefficient is given twice"],
     ),
+    "two loads": (
+        '[sweep]\nload.wheel_torque = ["1 N m"]\nload.pinion_torque = ["2 N m", "3 N m"]',
+        ["sweep.load.pinion_torque", "gives the load, as load.wheel_torque does"],
+    ),
     "set and swept": ('[set]\nmotion.mesh_frequency = "1 Hz"\n[sweep]\n' + FREQUENCIES, ["is swept too"]),
     "same case twice": (
         '[sweep]\nmotion.mesh_frequency = ["200 Hz", "0.2 kHz"]',

@@ -149,6 +149,8 @@ class Sections:
         if len(lengths) > 1:
             listed = ", ".join(f"{'.'.join(path)} has {len(values)}" for path, values in swept.items())
             self.mistakes.add(("loads",), "", f"needs a value of each field for each operating point: {listed}.")
+        if (second := fields.second_load(swept)) is not None:
+            self.wrong("loads", second[0], "", second[1])
         weights = table.get("weights")
         points = tuple(dict(zip(swept, each)) for each in zip(*swept.values())) or ({},)
         loads = replace(self._own("loads", Loads), points=points, weights=(1.0,) * len(points))
