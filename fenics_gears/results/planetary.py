@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from fenics_gears.effects.wheel_points import FORCES
 from fenics_gears.geometry.gear_train import Layout
 from fenics_gears.geometry.planetary import CARRIER, RING, SUN
 from fenics_gears.model.row_model import RowModel
@@ -54,6 +55,9 @@ def kinds_of_meshes(names: Sequence[str]) -> dict[str, list[int]]:
     return found
 
 
+FORCES_ON_RING = {
+    name: words.replace("wheel", RING).replace("the pinion", "its planets") for name, words in FORCES.items()
+}
 TORQUE = "torque on a member from outside, positive as the input's"
 TORQUE_IN_TIME = "torque that a member takes to its teeth or pins, positive as the input's"
 
@@ -91,6 +95,7 @@ def result_of_set(row: RowModel, carrier: Carrier, states: np.ndarray, meshes: S
             ("time", MEMBER), rotation, _said("rad", "rotation of a member beyond its nominal one, counter-clockwise")
         ),
         **_centres(row, carrier, states),
+        **_points(carrier, meshes),
         OVERALL: ("time", lag, _said("rad", "lag of the output behind the nominal motion of the input")),
     }  # fmt: skip
     coordinates = {
@@ -194,6 +199,16 @@ def _centres(row: RowModel, carrier: Carrier, states: np.ndarray) -> dict[str, t
     return {
         f"member_{axis}": (("time", MEMBER), centres[:, place], _said("mm", f"place of a member's centre, {where}"))
         for place, (axis, where) in enumerate(zip("xy", ("in the direction 0", "90 degrees counter-clockwise of it")))
+    }
+
+
+def _points(carrier: Carrier, meshes: Sequence[Curves]) -> dict[str, tuple]:
+    """Forces (steps, support), N, of the points of a ring, by all planets together."""
+    with_ring = meshes[carrier.meshes(1)]
+    return {
+        name: (("time", "support"), sum(np.asarray(each[name]) for each in with_ring), _said("N", words))
+        for name, words in FORCES_ON_RING.items()
+        if name in with_ring[0]
     }
 
 

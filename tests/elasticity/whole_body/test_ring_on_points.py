@@ -27,7 +27,7 @@ PITCH = 2.0 * pi / TEETH
 
 
 def on_points(angles, springs=(4000.0, 1500.0), offsets=TEETH - 1, gear=RING):
-    return ring_on_points(gear, STEEL, COARSE, (tuple(angles), springs), offsets)
+    return ring_on_points(gear, STEEL, COARSE, (tuple(angles), springs), offsets).by_teeth(offsets)
 
 
 @pytest.mark.parametrize("angles", [(0.0, 5.0 * PITCH, -8.0 * PITCH), (0.3 * PITCH, 6.8 * PITCH)])
