@@ -233,8 +233,9 @@ class RowCycle(Cycle):
         if self._points is None:
             return position
         operator = position.operator
-        change = self._points.change(step, [mesh.cycle for mesh in self.meshes], position.of_meshes)
-        return replace(position, operator=operator.changed(compliance=operator.compliance + change))
+        cycles = [mesh.cycle for mesh in self.meshes]
+        compliance = self._points.put_in(step, cycles, position.of_meshes, operator.compliance)
+        return replace(position, operator=operator.changed(compliance=compliance))
 
     def _joined_at(self, step: int) -> JoinedPosition:
         """All meshes at a step of the mesh cycle, kept if there is room."""

@@ -27,20 +27,25 @@ class WheelOnPoints:
         # By mesh and place in its mesh cycle: the same in every one, but for the number of the first tooth.
         self._known: dict[tuple[int, float], np.ndarray] = {}
 
-    def change(self, step: float, cycles: Sequence[Cycle], of_meshes: Sequence[tuple[Position, int]]) -> np.ndarray:
-        """What the points at a step add to the compliance (n, n), mm/N, between the nodes of all meshes, of which the
-        wheel stands on even springs; `of_meshes`: the position of each, and its first node among all."""
-        last, first = of_meshes[-1]
-        body = _body(cycles[self.meshes[0]])
-        moved = np.zeros((body.teeth, 2, first + last.operator.nodes))
+    def put_in(
+        self, step: float, cycles: Sequence[Cycle], of_meshes: Sequence[tuple[Position, int]], even: np.ndarray
+    ) -> np.ndarray:
+        """Compliance (n, n), mm/N, between the nodes of all meshes at a step, from that of a wheel on `even` springs;
+        `of_meshes`: the position of each, and its first node among all."""
+        loosened = _body(cycles[self.meshes[0]]).loosened * cycles[self.meshes[0]].pair.face_width
+        parts = []
         for mesh in self.meshes:
             cycle = cycles[mesh]
             position, first = of_meshes[mesh]
             tooth = first_tooth(cycle.pair.sides[WHEEL], int(step // cycle.steps))
-            own = np.roll(self._moved(mesh, cycle, position), tooth, axis=0)
-            moved[:, :, first : first + own.shape[-1]] = own
-        moved = moved.reshape(2 * body.teeth, -1)
-        return -cycles[self.meshes[0]].pair.face_width * (moved.T @ (body.loosened @ moved))
+            moved = np.roll(self._moved(mesh, cycle, position), tooth, axis=0).reshape(len(loosened), -1)
+            parts.append((slice(first, first + position.operator.nodes), moved))
+        found = even.copy()
+        for own, moved in parts:
+            forces = loosened @ moved
+            for other, by_other in parts:
+                found[other, own] -= by_other.T @ forces
+        return found
 
     def _moved(self, mesh: int, cycle: Cycle, position: Position) -> np.ndarray:
         """Motions (teeth, 2, n), mm/N, of the outer circle on even springs by normal forces at the nodes of a mesh, in

@@ -21,6 +21,9 @@ from .train_shafts import ResultOfShafts
 
 MEMBER = "member"
 PLANET = "planet"
+# Those that hold the ring, and its motion there.
+POINT = "ring_point"
+RING_DEFLECTION = "ring_deflection"
 PIN_DIRECTIONS = ("tangential", "radial")
 Curves = Mapping[str, np.ndarray]
 # Numbers of each set, of which those of a train with several are the largest; and further ones that a set may have.
@@ -55,9 +58,6 @@ def kinds_of_meshes(names: Sequence[str]) -> dict[str, list[int]]:
     return found
 
 
-FORCES_ON_RING = {
-    name: words.replace("wheel", RING).replace("the pinion", "its planets") for name, words in FORCES.items()
-}
 TORQUE = "torque on a member from outside, positive as the input's"
 TORQUE_IN_TIME = "torque that a member takes to its teeth or pins, positive as the input's"
 
@@ -95,7 +95,7 @@ def result_of_set(row: RowModel, carrier: Carrier, states: np.ndarray, meshes: S
             ("time", MEMBER), rotation, _said("rad", "rotation of a member beyond its nominal one, counter-clockwise")
         ),
         **_centres(row, carrier, states),
-        **_points(carrier, meshes),
+        **_points(row, carrier, meshes),
         OVERALL: ("time", lag, _said("rad", "lag of the output behind the nominal motion of the input")),
     }  # fmt: skip
     coordinates = {
@@ -105,6 +105,9 @@ def result_of_set(row: RowModel, carrier: Carrier, states: np.ndarray, meshes: S
             "pin_direction", list(PIN_DIRECTIONS), {"long_name": "as the sun pushes its planet, and outwards"}
         ),
     }  # fmt: skip
+    points = len(variables[RING_DEFLECTION][1].T) if RING_DEFLECTION in variables else 0
+    if points:
+        coordinates[POINT] = (POINT, np.arange(1, points + 1), {"long_name": "point that holds the ring"})
     numbers: dict[str, Any] = {
         "load_sharing_factor": float(shares[SUN][last].max()),
         "load_sharing_factor_ring": float(shares[RING][last].max()),
@@ -202,14 +205,23 @@ def _centres(row: RowModel, carrier: Carrier, states: np.ndarray) -> dict[str, t
     }
 
 
-def _points(carrier: Carrier, meshes: Sequence[Curves]) -> dict[str, tuple]:
-    """Forces (steps, support), N, of the points of a ring, by all planets together."""
-    with_ring = meshes[carrier.meshes(1)]
+def _points(row: RowModel, carrier: Carrier, meshes: Sequence[Curves]) -> dict[str, tuple]:
+    """Forces (steps, points), N, of the points that hold the ring, by all planets together, and its motion there."""
+    with_ring = range(len(meshes))[carrier.meshes(1)]
+    points = row.models[with_ring[0]].scene.wheel_points
+    if points is None:
+        return {}
+    radial, tangential = (sum(np.asarray(meshes[mesh][name]) for mesh in with_ring) for name in FORCES)
+    of_points = "force of a point on the ring, positive"
     return {
-        name: (("time", "support"), sum(np.asarray(each[name]) for each in with_ring), _said("N", words))
-        for name, words in FORCES_ON_RING.items()
-        if name in with_ring[0]
-    }
+        "ring_support_radial": (("time", POINT), radial, _said("N", f"radial {of_points} outwards")),
+        "ring_support_tangential": (
+            ("time", POINT), tangential, _said("N", f"tangential {of_points} as the sun turns the planets")
+        ),
+        RING_DEFLECTION: (
+            ("time", POINT), -radial / points.radial_stiffness, _said("mm", "motion of the ring at a point, outwards")
+        ),
+    }  # fmt: skip
 
 
 def _efficiencies(carrier: Carrier, torques: np.ndarray) -> dict[str, float]:

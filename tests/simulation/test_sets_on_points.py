@@ -14,6 +14,7 @@ from fenics_gears.contact.tooth_pair import node_slices
 from fenics_gears.contact.whole_body_mesh import first_tooth
 from fenics_gears.elasticity.cache import user_cache
 from fenics_gears.model.train import train_model_of
+from fenics_gears.results.sets_in_train import set_runs
 from fenics_gears.simulation.together import can_be_solved_together
 from fenics_gears.simulation.train import row_cycle
 from fenics_gears.system.progress import SilentProgress
@@ -95,7 +96,7 @@ def test_equal_points_take_over_from_each_other_and_carry_the_torque_of_the_ring
     error = found.overall_transmission_error.values
     assert np.abs(error[156:] - error[:13]).max() < 1e-12 * error.max()
     assert np.ptp(error[1:].reshape(14, 12).mean(axis=1)) > 1e-3 * error.max()
-    forces = found.wheel_support_tangential.values
+    forces = found.ring_support_tangential.values
     assert np.abs(np.roll(forces[156:], -1, axis=1) - forces[:13]).max() < 1e-10 * np.abs(forces).max()
     torque = found.member_torque.sel(member="ring").values
     assert np.abs(OUTER * forces.sum(axis=1) / torque + 1.0).max() < 3e-3
@@ -109,7 +110,7 @@ def test_points_stand_where_the_scene_has_them_and_turn_with_the_ring():
     found = run(on_points("count = 52", 2e6, 1e4, planets=planets, cycles=7))
     steps = (found.sizes["time"] - 1) // 7
     for cycle in (0, 6):
-        inwards = -found.wheel_support_radial.values[cycle * steps]
+        inwards = -found.ring_support_radial.values[cycle * steps]
         places = np.arange(52) * PITCH - cycle * PITCH
         for direction in directions:
             beside = (places - direction + 180.0) % 360.0 - 180.0
@@ -133,7 +134,7 @@ def test_runs_are_solved_one_by_one_and_the_page_says_on_how_many_points():
 @pytest.mark.parametrize(
     "points, options, words",
     [
-        ("radial = 3", {}, r"stages\.set\.ring\.points.*\n.*not known"),
+        ("radial = 3", {}, r"stages\.set\.ring\.points.*\n.*not a known field"),
         ("count = 1", {}, "from 2 to 200"),
         ('angles = ["10 deg", "-350 deg"]', {}, r"stages\.set\.ring\.points\.angles.*\n.*has a point twice"),
         ("count = 4", {"sections": "[friction]\ncoefficient = 0.1"}, r"not computed with \[friction\] yet"),
@@ -156,3 +157,15 @@ def test_another_support_beside_points_and_points_of_a_planet_are_refused():
         train_from_text(twice)
     with pytest.raises(GearsError, match=r"stages\.set\.planet\.points"):
         train_from_text(planetary_text(teeth=TEETH).replace("planet = {", "planet = { points = { count = 3 },"))
+
+
+def test_a_set_beside_another_has_its_points_as_alone():
+    """A set in a train of two is the set alone, to the last digit; the other one, which is held, has no points."""
+    alone = run(on_points("count = 4"))
+    stages, rest = on_points("count = 4").split("[load]")
+    held = with_support('support = "held"').split("[load]")[0]
+    text = stages.replace("stages.set", "stages.one") + held.replace("stages.set", "stages.two") + "[load]" + rest
+    one, two = set_runs(run(text))
+    for name in ("ring_support_radial", "ring_support_tangential", "ring_deflection"):
+        assert np.array_equal(one[name], alone[name]) and name not in two
+    assert np.array_equal(one.ring_point, [1, 2, 3, 4])

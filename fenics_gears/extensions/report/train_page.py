@@ -43,6 +43,7 @@ from fenics_gears.shown import (
     orbits,
     pair_forces,
     planet_shares,
+    points_of_ring,
     set_runs,
     train_errors,
     train_model_of,
@@ -223,7 +224,8 @@ def _members(dataset: xr.Dataset, train: TrainScene) -> PageSection:
     blocks: list[Block] = [
         Table(headings, _member_rows(train, dataset), "Members, mean torques through them", numbers=2)
     ]
-    return PageSection("power", "Power flow", [*blocks, *planet_shares(train, dataset), *orbits(train, dataset)])
+    of_sets = [*planet_shares(train, dataset), *orbits(train, dataset), *points_of_ring(train, dataset)]
+    return PageSection("power", "Power flow", [*blocks, *of_sets])
 
 
 def _member_rows(train: TrainScene, dataset: xr.Dataset) -> list[tuple[str, ...]]:
