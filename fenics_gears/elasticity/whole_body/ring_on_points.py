@@ -31,6 +31,9 @@ from .compliance import WholeBodyCompliance
 
 # Of a mesh whose outer circle is neither held nor on springs all over.
 FREE = (0.0, 0.0)
+# Even springs of a tooth per face width, by Young's modulus: from stiffer ones a ring between few points would be found
+# as a small difference.
+MOST_EVEN = 1.0
 # Angles of points (k,), rad, counter-clockwise from the centreline of tooth 0, and the radial and tangential stiffness
 # of each per face width, N/mm^2. A point takes the mean motion of the outer circle over a pitch, between two sectors of
 # both by its angle.
@@ -97,8 +100,8 @@ def ring_on_points(
     angles, stiffness = points
     teeth = gear.tooth_count
     springs = springs_of_sectors(angles, stiffness, gear.teeth)
-    even = len(angles) / teeth * np.array(stiffness)
-    relative = even / material.youngs_modulus
+    relative = np.minimum(len(angles) / teeth * np.array(stiffness) / material.youngs_modulus, MOST_EVEN)
+    even = relative * material.youngs_modulus
     inputs = similar_inputs("ring on points", gear, material, division, False) | {"springs": relative.tolist()}
     arrays, timings = kept(cache, inputs, lambda: _computed(gear, material.poissons_ratio, division, relative))
     by_forces, by_flank = (arrays[name] / material.youngs_modulus for name in ("by_forces", "even"))
