@@ -43,7 +43,7 @@ from fenics_gears.show.orders import bars_by_origin, order_spectrum
 from fenics_gears.show.over_face import charts_over_face
 from fenics_gears.show.pair_drawing import drawings
 from fenics_gears.show.panels import MOST_POINTS, digits, factor, in_unit
-from fenics_gears.show.planetary import orbits
+from fenics_gears.show.planetary import orbits, points_of_ring
 from fenics_gears.show.planetary import shares as planet_shares
 from fenics_gears.show.pressure import has_pressure, largest_pressures, pressure_maps
 from fenics_gears.show.run import NO_SCENE, TOO_FEW, ShownRun, load_in_words, shown_mesh
@@ -63,7 +63,8 @@ __all__ = [
     "describe", "digits", "drawing_of", "drawings", "effect_states", "effort_charts", "error_values", "factor",
     "force_charts", "frequencies_of_train", "has_pressure", "in_unit", "largest_normal_force", "largest_pressures",
     "line_loads", "load_in_words", "motion_charts", "motion_rows", "orbits", "order_spectrum", "over_time",
-    "pair_forces", "planet_shares", "pressure_maps", "result_charts", "set_runs", "shown_mesh", "solver_rows",
+    "pair_forces", "planet_shares", "points_of_ring", "pressure_maps", "result_charts", "set_runs", "shown_mesh",
+    "solver_rows",
     "stage_rows", "stored_index", "stress_drawing", "train_errors", "train_model_of", "train_orders", "transmitted",
 ]  # fmt: skip
 

@@ -26,6 +26,7 @@ from .mesh_cycle import Cycle, Deviation, Gaps
 from .mixed_form import StepEquations
 from .operator import SHARE_FORMED, ContactOperator, Position
 from .places import counted_from
+from .row_on_points import WheelOnPoints
 from .step_solver import StepSolution, solve_step
 from .tooth_pair import PairNodes
 
@@ -120,9 +121,10 @@ class JoinedPosition(Position):
 
 
 class RowCycle(Cycle):
-    """Contact equations of all `meshes` of a train, whose steps are of one length in time."""
+    """Contact equations of all `meshes` of a train, whose steps are of one length in time. `points`: what differs from
+    mesh cycle to mesh cycle where a wheel of several meshes stands on points."""
 
-    def __init__(self, meshes: Sequence[MeshOfRow], compliance: RowCompliance):
+    def __init__(self, meshes: Sequence[MeshOfRow], compliance: RowCompliance, points: WheelOnPoints | None = None):
         first = meshes[0].cycle
         alike = len({each.cycle.steps for each in meshes}) == 1
         # After so many steps all of them are where they were.
@@ -132,6 +134,7 @@ class RowCycle(Cycle):
         self.traits = replace(self.traits, repeats=all(each.cycle.traits.repeats for each in meshes) and alike)
         self.meshes = list(meshes)
         self._compliance = compliance
+        self._points = points
         self._joined: dict[float, JoinedPosition] = {}
         # Of the steps that were built last, for which there may be no room.
         self._around: dict[int, JoinedPosition] = {}
@@ -224,11 +227,16 @@ class RowCycle(Cycle):
         return found or self._joined_at(key)
 
     def _deviated(self, step: float, position: JoinedPosition) -> JoinedPosition:
-        if not any(mesh.deviations for mesh in self.meshes):
+        if any(mesh.deviations for mesh in self.meshes):
+            both = zip(self.meshes, position.of_meshes)
+            of_meshes = tuple((mesh.deviating(step, own), first) for mesh, (own, first) in both)
+            position = _with_gaps_of(replace(position, of_meshes=of_meshes), self.meshes)
+        if self._points is None:
             return position
-        both = zip(self.meshes, position.of_meshes)
-        of_meshes = tuple((mesh.deviating(step, own), first) for mesh, (own, first) in both)
-        return _with_gaps_of(replace(position, of_meshes=of_meshes), self.meshes)
+        operator = position.operator
+        cycles = [mesh.cycle for mesh in self.meshes]
+        compliance = self._points.put_in(step, cycles, position.of_meshes, operator.compliance)
+        return replace(position, operator=operator.changed(compliance=compliance))
 
     def _joined_at(self, step: int) -> JoinedPosition:
         """All meshes at a step of the mesh cycle, kept if there is room."""

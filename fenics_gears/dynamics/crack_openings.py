@@ -29,7 +29,7 @@ def openings_of(cycle, side: Side, record: Record) -> np.ndarray:
     forces = record.solution.forces
     by_kind = forces.reshape(-1, operator.nodes)
     total = np.zeros(len(next(iter(body.openings.values()))))
-    first = first_tooth(side, int(record.step // cycle.steps))
+    first = body.first + first_tooth(side, int(record.step // cycle.steps))
     for nodes, pair in zip(node_slices(operator.pairs), operator.pairs):
         rows = body.openings.get((first + pair.place.teeth[side.number]) % body.teeth)
         if rows is not None and forces[nodes].any():

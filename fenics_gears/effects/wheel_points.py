@@ -92,7 +92,9 @@ def elasticity(points: WheelPoints, model, name: str, reach, cache):
     springs = points.radial_stiffness / width, points.tangential_stiffness / width
     division = model.resolution.discretisation(WHEEL)
     material = model.scene.gears.material_of(name)
-    return ring_on_points(model.pair.wheel, material, division, (points.places, springs), reach.same + 1, cache)
+    offsets = min(reach.same + 1, model.pair.wheel.tooth_count - 1)
+    given = points.places, springs
+    return ring_on_points(model.pair.wheel, material, division, given, offsets, cache).by_teeth(offsets)
 
 
 def watched(points: WheelPoints, cycle, steps) -> dict:

@@ -7,10 +7,9 @@ from pathlib import Path
 
 import numpy as np
 
-from fenics_gears.geometry.pair import GearPair
 from fenics_gears.geometry.planetary import RING, SUN, PlanetarySet
 from fenics_gears.scene.carrier import Carrier
-from fenics_gears.scene.train_mesh import gear_names
+from fenics_gears.scene.train_mesh import MeshOfScene, gear_names
 
 from .row_model import RowModel
 
@@ -48,14 +47,17 @@ def set_rows(row: RowModel) -> list[Row]:
     if not own.sun_drives:
         words = "run with the sun driving; without friction forces are the same, in the reverse order of time"
         rows.append((f"as the carrier sees it, the {own.second} drives", "", words))
-    return rows + (_of_steps(row, own) if own.stepped else []) + _supports(carrier, ring.pair)
+    return rows + (_of_steps(row, own) if own.stepped else []) + _supports(carrier, ring)
 
 
-def _supports(carrier: Carrier, with_ring: GearPair) -> list[Row]:
+def _supports(carrier: Carrier, with_ring: MeshOfScene) -> list[Row]:
     """What holds the ring and the members, and where the carrier gives way."""
     rows = []
     if carrier.set.second == RING:
-        support = "held at its outer circle" if with_ring.wheel.foundation is None else "on an elastic foundation"
+        support = "held at its outer circle" if with_ring.pair.wheel.foundation is None else "on an elastic foundation"
+        points = with_ring.scene.wheel_points
+        if points is not None:
+            support = f"on {len(points.places)} points of its outer circle"
         rows.append((RING, support, ""))
     if carrier.floating:
         rows.append(("floating", ", ".join(carrier.floating), ""))

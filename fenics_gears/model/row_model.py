@@ -22,6 +22,7 @@ from fenics_gears.dynamics.train_shafts import with_bent_shafts
 from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.elasticity.element_sizes import Discretisation
 from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
+from fenics_gears.elasticity.whole_body.ring_on_points import Points
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.gear_data import Material
 from fenics_gears.inputs.tree import GEARS
@@ -228,6 +229,20 @@ class RowModel(OfMeshes):
         likes = [mesh.like for mesh in self.meshes]
         reach = reach_of_alike(self.models, self.layout, gear, likes)
         return self.gear(gear), material, self._discretisation_of(gear), reach
+
+    def points_of(self, gear: int) -> Points | None:
+        """What a gear of several meshes stands on, None unless on points: their angles from the centreline of its tooth
+        0 as the frame of its first mesh has them, and their stiffness per face width."""
+        mesh, side = self.graph.sides[gear][0]
+        points = self.models[mesh].scene.wheel_points
+        if points is None or GEARS[side] != "wheel":
+            return None
+        sense = self.graph.sense(mesh)
+        # Of an internal gear the radii are negative: its teeth are on the other side of the centre.
+        tooth = self.layout.tooth_angle(gear) + pi
+        width = self.models[mesh].pair.face_width
+        angles = tuple(sense * (angle - tooth) for angle in points.places)
+        return angles, (points.radial_stiffness / width, points.tangential_stiffness / width)
 
     def keys_of_shared(self, gear: int) -> tuple:
         """What the body of a gear of several meshes depends on, gear and material first."""

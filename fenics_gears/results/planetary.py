@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from fenics_gears.effects.wheel_points import FORCES
 from fenics_gears.geometry.gear_train import Layout
 from fenics_gears.geometry.planetary import CARRIER, RING, SUN
 from fenics_gears.model.row_model import RowModel
@@ -20,6 +21,9 @@ from .train_shafts import ResultOfShafts
 
 MEMBER = "member"
 PLANET = "planet"
+# Those that hold the ring, and its motion there.
+POINT = "ring_point"
+RING_DEFLECTION = "ring_deflection"
 PIN_DIRECTIONS = ("tangential", "radial")
 Curves = Mapping[str, np.ndarray]
 # Numbers of each set, of which those of a train with several are the largest; and further ones that a set may have.
@@ -91,6 +95,7 @@ def result_of_set(row: RowModel, carrier: Carrier, states: np.ndarray, meshes: S
             ("time", MEMBER), rotation, _said("rad", "rotation of a member beyond its nominal one, counter-clockwise")
         ),
         **_centres(row, carrier, states),
+        **_points(row, carrier, meshes),
         OVERALL: ("time", lag, _said("rad", "lag of the output behind the nominal motion of the input")),
     }  # fmt: skip
     coordinates = {
@@ -100,6 +105,9 @@ def result_of_set(row: RowModel, carrier: Carrier, states: np.ndarray, meshes: S
             "pin_direction", list(PIN_DIRECTIONS), {"long_name": "as the sun pushes its planet, and outwards"}
         ),
     }  # fmt: skip
+    points = len(variables[RING_DEFLECTION][1].T) if RING_DEFLECTION in variables else 0
+    if points:
+        coordinates[POINT] = (POINT, np.arange(1, points + 1), {"long_name": "point that holds the ring"})
     numbers: dict[str, Any] = {
         "load_sharing_factor": float(shares[SUN][last].max()),
         "load_sharing_factor_ring": float(shares[RING][last].max()),
@@ -195,6 +203,25 @@ def _centres(row: RowModel, carrier: Carrier, states: np.ndarray) -> dict[str, t
         f"member_{axis}": (("time", MEMBER), centres[:, place], _said("mm", f"place of a member's centre, {where}"))
         for place, (axis, where) in enumerate(zip("xy", ("in the direction 0", "90 degrees counter-clockwise of it")))
     }
+
+
+def _points(row: RowModel, carrier: Carrier, meshes: Sequence[Curves]) -> dict[str, tuple]:
+    """Forces (steps, points), N, of the points that hold the ring, by all planets together, and its motion there."""
+    with_ring = range(len(meshes))[carrier.meshes(1)]
+    points = row.models[with_ring[0]].scene.wheel_points
+    if points is None:
+        return {}
+    radial, tangential = (sum(np.asarray(meshes[mesh][name]) for mesh in with_ring) for name in FORCES)
+    of_points = "force of a point on the ring, positive"
+    return {
+        "ring_support_radial": (("time", POINT), radial, _said("N", f"radial {of_points} outwards")),
+        "ring_support_tangential": (
+            ("time", POINT), tangential, _said("N", f"tangential {of_points} as the sun turns the planets")
+        ),
+        RING_DEFLECTION: (
+            ("time", POINT), -radial / points.radial_stiffness, _said("mm", "motion of the ring at a point, outwards")
+        ),
+    }  # fmt: skip
 
 
 def _efficiencies(carrier: Carrier, torques: np.ndarray) -> dict[str, float]:

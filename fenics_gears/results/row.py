@@ -13,6 +13,7 @@ import xarray as xr
 from fenics_gears.dynamics.energy_account import account
 from fenics_gears.dynamics.marched import March
 from fenics_gears.dynamics.steps import Steps
+from fenics_gears.effects.wheel_points import FORCES
 from fenics_gears.model.row_model import RowModel
 
 from .contact_variables import energy_of_teeth
@@ -60,6 +61,8 @@ class RowResult:
     def of_meshes(self, march: March) -> list[MeshResult]:
         """All meshes; the friction loss of the row is that of its last mesh."""
         found: list[MeshResult] = []
+        # Points of a ring take the forces of all meshes.
+        left_out = OF_ENERGY if self._row.shafts.carrier is None else (*OF_ENERGY, *FORCES)
         for mesh, recorder in zip(self._row.meshes, self._recorders):
             recorder.finish()
             curves = {name: (dims, values, labels) for name, dims, values, labels in variables_of(recorder, 0)}
@@ -72,7 +75,7 @@ class RowResult:
                 labelled = xr.Dataset(curves, places)
                 numbers |= _finite(along.numbers(labelled, numbers))
                 said += along.warnings(labelled)
-            own = {name: of for name, of in (curves | places).items() if not name.startswith(OF_ENERGY)}
+            own = {name: of for name, of in (curves | places).items() if not name.startswith(left_out)}
             # All of them took that march.
             seconds = (0.0 if found else march.seconds, 0.0)
             found.append(MeshResult(mesh.name, own, numbers, said, seconds))

@@ -10,13 +10,13 @@ import numpy as np
 import xarray as xr
 
 from .layout import OVERALL
-from .planetary import LARGEST_OF_SETS, MEMBER, NUMBERS_OF_SETS, PLANET
+from .planetary import LARGEST_OF_SETS, MEMBER, NUMBERS_OF_SETS, PLANET, POINT
 from .train_shafts import ResultOfShafts
 
 SET = "set"
 MESH = "mesh"
 STEP = "step"
-OF_SETS = (PLANET, MEMBER, SET)
+OF_SETS = (PLANET, MEMBER, POINT, SET)
 # The lag of the output of each set behind its input.
 LAG_OF_SET = f"{OVERALL}_of_set"
 
@@ -30,7 +30,9 @@ def side_by_side(sets: Sequence[tuple[str, ResultOfShafts]]) -> ResultOfShafts:
         of_each = [_of_set(own, known) for _, own in sets]
         dims, labels = next((dims, labels) for dims, _, labels in of_each if dims)
         steps = max(len(values) for _, values, _ in of_each)
-        values = np.concatenate([_longer(each, steps) for _, each, _ in of_each], axis=1)
+        # Points are of those sets alone that have them.
+        there = [each for own_dims, each, _ in of_each if own_dims or POINT not in dims]
+        values = np.concatenate([_longer(each, steps) for each in there], axis=1)
         variables[LAG_OF_SET if known == OVERALL else known] = ((STEP, *dims[1:]), values, labels)
     # Of a set the loss is what its efficiency leaves; over meshes it has the name.
     for known in dict.fromkeys(each for _, own in sets for each in own.numbers if each in NUMBERS_OF_SETS):
@@ -39,9 +41,11 @@ def side_by_side(sets: Sequence[tuple[str, ResultOfShafts]]) -> ResultOfShafts:
         labels = {"units": units, "long_name": words} if units else {"long_name": words}
         variables[known] = (SET, np.array(values, float if units else object), labels)
     coordinates = sets[0][1].coordinates | {SET: (SET, names, {"long_name": "planetary set"})}
-    for dimension, word in ((PLANET, f"{PLANET} "), (MEMBER, "")):
-        members = [f"{name}.{word}{each}" for name, own in sets for each in own.coordinates[dimension][1]]
-        coordinates[dimension] = (dimension, members, {"long_name": f"{dimension} of a planetary set"})
+    for dimension, word in ((PLANET, f"{PLANET} "), (MEMBER, ""), (POINT, "point ")):
+        of_sets = [(name, own.coordinates[dimension]) for name, own in sets if dimension in own.coordinates]
+        members = [f"{name}.{word}{each}" for name, (_, known, _) in of_sets for each in known]
+        if members:
+            coordinates[dimension] = (dimension, members, {"long_name": f"{dimension} of a planetary set"})
     return ResultOfShafts(variables, coordinates, {name: float(np.max(variables[name][1])) for name in LARGEST_OF_SETS})
 
 
@@ -74,11 +78,14 @@ def set_run(found: xr.Dataset, name: str) -> xr.Dataset:
     """A planetary set of a train, by its name, as the result of the set alone."""
     places: dict[str, Any] = {
         dimension: [at for at, each in enumerate(found[dimension].values) if str(each).startswith(f"{name}{sign}")]
-        for dimension, sign in ((PLANET, "."), (MEMBER, "."), (MESH, ":"))
+        for dimension, sign in ((PLANET, "."), (MEMBER, "."), (POINT, "."), (MESH, ":"))
+        if dimension in found.dims
     }
     places[SET] = [str(each) for each in found[SET].values].index(name)
     steps = int(np.isfinite(found[LAG_OF_SET].isel({SET: places[SET]})).sum())
     own = found.isel({**places, STEP: slice(steps)}).drop_dims("time").drop_vars(SET)
+    points = own.sizes.get(POINT, 0)
+    own = own if points else own.drop_dims(POINT, errors="ignore")
     variables = dict(_as_alone(found, own))
     attributes = {each: variables.pop(each).item() for each in _numbers(found)}
     attributes = {each: value for each, value in attributes.items() if value and value == value}
@@ -88,13 +95,15 @@ def set_run(found: xr.Dataset, name: str) -> xr.Dataset:
         PLANET: np.arange(1, own.sizes[PLANET] + 1),
         MEMBER: [str(each).removeprefix(f"{name}.") for each in own[MEMBER].values],
     }
+    if points:
+        coordinates[POINT] = np.arange(1, points + 1)
     return xr.Dataset(variables, attrs=attributes).assign_coords(coordinates)
 
 
 def _as_alone(found: xr.Dataset, own: xr.Dataset) -> Iterator[tuple[str, xr.Variable]]:
     """Variables of a set, over `time` those that a set alone has so."""
     for name, variable in own.variables.items():
-        if name in (PLANET, MEMBER):
+        if name in (PLANET, MEMBER, POINT):
             continue
         of_set = bool({*OF_SETS} & {*found[name].dims})
         dims = ["time" if of_set and each == STEP else each for each in variable.dims]

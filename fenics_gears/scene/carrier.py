@@ -189,6 +189,7 @@ class OfSet:
         """What is said of the pair, in words of the set."""
         # Sets name a number of mesh cycles.
         said = said.replace(f' or "{HUNTING_TOOTH_PERIOD}"', "")
+        said = said.replace("[wheel_points]", f"[stages.{self.stage}.ring.points]")
         for one, other in zip(GEARS, self.gears):
             said = sub(rf"\bgears\.{one}\b", f"stages.{self.stage}.{other}", said)
             said = sub(rf"\b{one}\b", other, said)
@@ -198,6 +199,8 @@ class OfSet:
         """Where a scene has what the scene of the pair has at a path."""
         if path[:1] == ("accuracy",) and self.own_accuracy:
             return ("stages", self.stage, *path)
+        if path[:1] == ("wheel_points",):
+            return ("stages", self.stage, "ring", "points", *path[1:])
         if path[:1] != ("gears",):
             return path if path[:1] in (("friction",), ("accuracy",), ("load",)) else (
                 "stages", self.stage, self.mesh, *path

@@ -26,6 +26,7 @@ from .gear_schema import Gears
 from .parsing import parsed
 from .planetary_assembly import check_centres, check_clear, set_of
 from .planetary_in_time import check_in_time, wrong_in_time, wrong_inertia
+from .planetary_points import POINTS, wrong_points
 from .planetary_rules import OF_A_SET_ALONE, OF_THE_TRAIN, text_of_set, wrong_sections
 from .planetary_run_out import pitches_of, run_outs_of, with_pitches, with_run_outs
 from .planetary_schema import OF_THE_FACE, OF_THE_STEP, PlanetaryText, gears_in, meshes_in
@@ -51,6 +52,7 @@ def planetary_parts(tree: Tree, source: str, folder: Path) -> tuple[list[MeshOfS
     text, problems = text_of_set(stage, content)
     if text is not None and INERTIA in tree:
         problems += wrong_in_time((STAGES, stage), text, whole.motion)
+    problems += wrong_points((STAGES, stage), tree, content)
     if text is None or problems:
         raise MistakesOfStage(problems)
     of_meshes = _of_meshes(stage, content)
@@ -133,12 +135,14 @@ def _scene(tree: Tree, own: OfSet, content: Tree, gears: Mapping[str, Any], sour
     sections = {
         # Both meshes are resolved over the face where one is.
         **({"misalignment": {"in_plane": "0 um"}} if over_face else {}),
-        "gears": shared | {name: gears[called] for name, called in zip(GEARS, own.gears)},
+        "gears": shared | {name: dict(gears[called]) for name, called in zip(GEARS, own.gears)},
         **{name: tree[name] for name in ("friction", "accuracy") if name in tree},
         **{name: content[name] for name in ("accuracy",) if name in content},
         **of_mesh,
         "load": {"wheel_torque": "1 N m"},
     }
+    if own.gears[1] == RING and POINTS in gears[RING]:
+        sections["wheel_points"] = sections["gears"]["wheel"].pop(POINTS)
     sections |= motion_put_in(sections, tree)
     try:
         return _scene_read(as_toml(sections), own, f"{source}, stage {own.stage}", folder)

@@ -9,11 +9,13 @@ from typing import Any, get_type_hints
 
 from fenics_gears.contact.eccentricity import Eccentricity
 from fenics_gears.effects import effect_named
+from fenics_gears.geometry.planetary import RING
 from fenics_gears.inputs.fields import choice, declared, quantities, quantity
 from fenics_gears.inputs.section import AllowedTables, Section
 
 from .accuracy import Accuracy
 from .gear_schema import Gears, GearText
+from .planetary_points import RingText
 from .planetary_schema import (
     GEARS_OF_SET,
     MESHES,
@@ -83,7 +85,7 @@ def _of_planets() -> Iterator[tuple[str, Any, Any]]:
         kind = _RunOuts | None if each.name == RUN_OUT else hints[each.name]
         yield each.name, kind, field(default=None, metadata=each.metadata)
     for gear in GEARS_OF_SET:
-        yield gear, GearText | None, field(default=None)
+        yield gear, (RingText if gear == RING else GearText) | None, field(default=None)
     effects = _with(Section, OF_A_MESH)
     of_steps = make_dataclass(
         "SecondMesh", list(_optional(Gears, OF_THE_STEP)), bases=(effects,), frozen=True, kw_only=True

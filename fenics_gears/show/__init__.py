@@ -19,4 +19,5 @@ TRAIN_PICTURE_FILES = (
     "shafts.png",
     "load_sharing.png",
     "orbit.png",
+    "ring_points.png",
 )

@@ -10,6 +10,7 @@ from math import degrees
 import numpy as np
 import xarray as xr
 
+from fenics_gears.results.planetary import POINT, RING_DEFLECTION
 from fenics_gears.results.sets_in_train import set_runs
 from fenics_gears.scene.carrier import Carrier
 from fenics_gears.scene.train import TrainScene
@@ -23,6 +24,8 @@ from .panels import DARK, PALETTE
 
 CIRCLE_POINTS = 361
 KILO = 1e-3
+# Points beyond these are drawn without a name.
+LISTED = 12
 MICRO = 1e3
 
 
@@ -112,11 +115,37 @@ def _of_planets(scene: TrainScene, phase: np.ndarray, values: np.ndarray) -> lis
 
 def _last_period(scene: TrainScene, dataset: xr.Dataset) -> tuple[np.ndarray, slice]:
     """Phases of the last mesh cycle, or those after which all meshes of stepped planets are where they were, with both
-    ends, and where they are among the steps; of gears with errors, whose cycles differ, of the whole run."""
+    ends, and where they are among the steps; of gears with errors or a ring on points, whose cycles differ, of the
+    whole run."""
     carrier = carrier_of(scene)
     steps = int(dataset["steps_per_mesh_cycle"][0]) * carrier.set.cycles[0]
-    last = slice(None) if carrier.run_outs or carrier.pitches else slice(-1 - steps, None)
+    unlike = carrier.run_outs or carrier.pitches or POINT in dataset.dims
+    last = slice(None) if unlike else slice(-1 - steps, None)
     return np.asarray(dataset["mesh_phase"])[last, 0], last
+
+
+def points_of_ring(scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:
+    """Forces of the points that hold a ring, and how far it moves there; nothing of rings that are held otherwise."""
+    return [chart for own in sets_of(scene, dataset) if POINT in own[2].dims for chart in _points(*own)]
+
+
+def _points(of_set: str, scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:
+    phase, last = _last_period(scene, dataset)
+    charts = []
+    for name, words, quantity, factor in (
+        ("ring_support_radial", "Radial forces of points on the ring, outwards", "Force (kN)", KILO),
+        ("ring_support_tangential", "Tangential forces of points on the ring, as it is driven", "Force (kN)", KILO),
+        (RING_DEFLECTION, "Radial motion of the ring at its points, outwards", "Motion (µm)", MICRO),
+    ):
+        values = factor * np.asarray(dataset[name])[last]
+        curves = [
+            Curve(f"point {number + 1}", phase, own, PALETTE[number % len(PALETTE)], listed=number < LISTED)
+            for number, own in enumerate(values.T)
+        ]
+        caption = f"{of_set}{words}: {values.min():.4g} to {values.max():.4g}"
+        least = LEAST_SHARE * float(np.abs(values).max())
+        charts.append(Chart(caption, curves, "Time (mesh cycles)", quantity, least=least, height=300))
+    return charts
 
 
 def orbits(scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:

@@ -26,7 +26,7 @@ from .chart import BARS, LEAST_SHARE, Chart, Curve, Flag
 from .drawing import picture
 from .line_load import line_loads
 from .panels import GREY, PALETTE, digits
-from .planetary import orbits, set_drawing, shares
+from .planetary import orbits, points_of_ring, set_drawing, shares
 from .plots import heading, save_figures
 from .run import shown_mesh
 from .train_shafts import deflections
@@ -66,6 +66,7 @@ def subjects_of(scene: TrainScene, dataset: xr.Dataset) -> list[tuple[str, list[
         ("Shafts under load", bent_shafts_of(scene, dataset)),
         ("Load sharing of the planets", shares(scene, dataset)),
         ("Orbits of floating members", orbits(scene, dataset)),
+        ("Points that hold the ring", points_of_ring(scene, dataset)),
     ]
 
 

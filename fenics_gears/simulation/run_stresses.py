@@ -223,7 +223,8 @@ class RunStresses:
             )
         if any(effect.elasticity is not None for effect in effects_on(scene)):
             raise SceneError(
-                "stresses are those of gears of equal sectors; this run has [body_meshes] or [wheel_points]."
+                "stresses are those of gears of equal sectors; this run has [body_meshes], [wheel_points] or a ring on"
+                " points."
             )
         if self.model.resolution.condensation != ONCE:
             raise SceneError(

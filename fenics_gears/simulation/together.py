@@ -42,8 +42,15 @@ def can_be_solved_together(model: Model | TrainModel, asked: Collection[str]) ->
         row = model.rows[0]
         by_itself = len(model.rows) == 1 and row.shafts.carrier is not None and set(asked) == OF_SETS
         steady = row.drivetrain.mass is None and not row.friction
+        evenly = all(own.scene.wheel_points is None for own in row.models)
         deviations = (each for own in row.models for each in deviations_of(own))
-        return by_itself and steady and not row.over_face and all(hasattr(each, "of_runs") for each in deviations)
+        return (
+            by_itself
+            and steady
+            and evenly
+            and not row.over_face
+            and all(hasattr(each, "of_runs") for each in deviations)
+        )
     scene = model.scene
     drivetrain = model.drivetrain
     teeth_alike = reliefs_apart(model) and common_period(scene) == 1

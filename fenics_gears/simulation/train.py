@@ -16,6 +16,7 @@ from fenics_gears.contact.mesh import Mesh, step_by_step
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.row import JoinedPosition, MeshOfRow, RowCycle, at_phase
 from fenics_gears.contact.row_in_plane import GearInPlane, RowInPlane
+from fenics_gears.contact.row_on_points import WheelOnPoints
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.dynamics.marched import March
 from fenics_gears.dynamics.steps import Steps
@@ -101,7 +102,9 @@ def row_cycle(row: RowModel, progress: Progress, cache: Cache) -> RowCycle:
         for gear in row.graph.shared
         for shared in couplings(row.layout, gear)
     ]
-    return RowCycle(meshes, RowInPlane(coupled) if coupled else JoinedMeshes())
+    on_points = next((gear for gear in row.graph.shared if row.points_of(gear) is not None), None)
+    points = None if on_points is None else WheelOnPoints([mesh for mesh, _ in row.graph.sides[on_points]])
+    return RowCycle(meshes, RowInPlane(coupled) if coupled else JoinedMeshes(), points)
 
 
 def _mesh(model: Model, cycle: Cycle, placed: tuple[np.ndarray, np.ndarray], modes: int) -> MeshOfRow:
@@ -132,7 +135,14 @@ def shared_body(row: RowModel, gear: int, cache: Cache) -> Body | SharedBody:
     """A gear of several meshes, from the cache or condensed."""
     if row.over_face:
         return body_over_face(row, gear, cache)
-    return Body.of(flank_compliance(*row.key_of_shared(gear), cache))
+    key = row.key_of_shared(gear)
+    points = row.points_of(gear)
+    if points is None:
+        return Body.of(flank_compliance(*key, cache))
+    from fenics_gears.elasticity.whole_body.ring_on_points import ring_on_points
+
+    gear_data, material, division, reach = key
+    return Body.of(ring_on_points(gear_data, material, division, points, reach.same, cache))
 
 
 def _like(row: RowModel, number: int, bodies: Sequence[Body | SharedBody]) -> int | None:
@@ -159,6 +169,12 @@ def _cycle(row: RowModel, number: int, made: Mesh, like: Cycle | None) -> Cycle:
     model = row.models[number]
     phase, ahead = row.phases[number]
     mesh = at_phase(made, phase, ahead, model.resolution.steps_per_mesh_cycle)
+    gear = row.graph.gears[number][1]
+    if gear in row.graph.shared and row.points_of(gear) is not None:
+        # Its teeth differ by the points beside them: each mesh counts them from its own tooth 0.
+        first, _ = row.graph.sides[gear][0]
+        pinion, wheel = mesh.bodies
+        mesh = replace(mesh, bodies=(pinion, wheel.counted_from(row.layout.shared(gear, first, number).tooth)))
     return cycle_of(model, mesh) if like is None else CycleAlike(mesh, like, ahead)
 
 

@@ -1,10 +1,14 @@
 """Flank compliance of an internal gear whose outer circle is free but for springs at points of it.
 
-Its sectors are alike but for their springs. Each is condensed onto its flank, its outer circle and its cuts, gets its
-springs, and the ring is joined as in `whole_body.condensed`.
+With all springs spread evenly over its teeth they are alike, and one is condensed as of any ring (`elasticity.ring`).
+Springs at points differ from those by D at the outer circles s of the teeth: with the even ring's compliance C_0, the
+ring on points has ``C = C_0 - C_0s (1 + D C_ss)^-1 D C_s0`` (Woodbury).
 """
 
-from dataclasses import replace
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from functools import cached_property
 from math import floor, pi
 from time import perf_counter
 
@@ -15,49 +19,107 @@ from fenics_gears.geometry.gear_data import Material
 from fenics_gears.geometry.outline import rotation
 
 from ..cache import Cache, kept
+from ..compliance import FlankCompliance
 from ..condensation import by_radius, without
 from ..element_nodes import node_roll_angles
 from ..element_sizes import Discretisation
 from ..elements import element_named
 from ..gear_compliance import similar_inputs
-from ..ring import Parts, check_congruent, condensed_sector, flank_free, turn_last
+from ..ring import check_congruent, condensed_sector, flank_free, joined_blocks, turn_last
 from ..sector_mesh import sector_mesh
 from .compliance import WholeBodyCompliance
-from .condensed import joined_factor
 
 # Of a mesh whose outer circle is neither held nor on springs all over.
 FREE = (0.0, 0.0)
+# Even springs of a tooth per face width, by Young's modulus: from stiffer ones a ring between few points would be found
+# as a small difference.
+MOST_EVEN = 1.0
+# Angles of points (k,), rad, counter-clockwise from the centreline of tooth 0, and the radial and tangential stiffness
+# of each per face width, N/mm^2. A point takes the mean motion of the outer circle over a pitch, between two sectors of
+# both by its angle.
+Points = tuple[tuple[float, ...], tuple[float, float]]
+
+
+@dataclass(frozen=True)
+class RingOnPoints(FlankCompliance):
+    """A ring on points as one on even springs, whose flank compliance it has, and what makes it that on points.
+
+    even: (teeth, 2, 2n), mm per N/mm: mean radial and tangential motion of the outer circle of the sector m ahead of a
+    loaded flank. points_by_even: (2 k, 2 teeth), N/mm per mm: radial (outwards) and tangential (counter-clockwise) line
+    forces of the points on the ring by these motions of all sectors. loosened: (2 teeth, 2 teeth), N/mm per mm: by
+    them the forces that change the even ring into that on points, symmetric. `first`: teeth are counted from this one.
+    """
+
+    even: np.ndarray = field(kw_only=True)
+    points_by_even: np.ndarray = field(kw_only=True)
+    loosened: np.ndarray = field(kw_only=True)
+    first: int = 0
+
+    @property
+    def teeth(self) -> int:
+        """Number of teeth."""
+        return len(self.even)
+
+    def counted_from(self, tooth: int) -> RingOnPoints:
+        """The same ring, whose tooth of that number is called 0."""
+        return replace(self, first=self.first + tooth)
+
+    def moved(self, tooth: int) -> np.ndarray:
+        """Motions (2 teeth, 2n) of the even ring's outer circle under line forces on the flank of a tooth."""
+        return np.roll(self.even, self.first + tooth, axis=0).reshape(2 * self.teeth, -1)
+
+    @cached_property
+    def openings(self) -> dict[int, np.ndarray]:
+        """Line forces (2 k, 2n) of the points on the ring by those on the flank of each tooth, N/mm per N/mm."""
+        known = replace(self, first=0)
+        return {tooth: self.points_by_even @ known.moved(tooth) for tooth in range(self.teeth)}
+
+    def by_teeth(self, offsets: int) -> WholeBodyCompliance:
+        """The same as a body whose teeth differ, known over so many `offsets`."""
+        moved = [self.moved(tooth) for tooth in range(self.teeth)]
+        blocks = []
+        for tooth, own in enumerate(moved):
+            forces = self.loosened @ own
+            ahead = [self.blocks[each] - moved[(tooth + each) % self.teeth].T @ forces for each in range(offsets + 1)]
+            ahead[0] = 0.5 * (ahead[0] + ahead[0].T)
+            blocks.append(tuple(ahead))
+        rolls = (self.roll_angle,) * self.teeth
+        return WholeBodyCompliance(rolls, self.element_order, tuple(blocks), self.openings, self.timings)
 
 
 def ring_on_points(
     gear: Gear,
     material: Material,
     division: Discretisation,
-    points: tuple[tuple[float, ...], tuple[float, float]],
+    points: Points,
     tooth_offsets: int,
     cache: Cache | None = None,
-) -> WholeBodyCompliance:
-    """Flank compliance of every tooth, from the cache or computed. Its `openings` are what flank forces load the points
-    with: the radial (outwards) and the tangential (counter-clockwise) line force on the gear of each, N/mm per N/mm.
-
-    points: their angles (k,), rad, counter-clockwise from the centreline of tooth 0, and the radial and tangential
-    stiffness of each per face width, N/mm^2. A point takes the mean motion of the outer circle over a pitch, between
-    two sectors of both by its angle. Raises ComputationError when a stage fails.
-    """
+) -> RingOnPoints:
+    """A ring on `points`, its flanks' interaction known over so many teeth; its even ring from the cache or computed.
+    Raises ComputationError when a stage fails."""
     angles, stiffness = points
-    springs = stiffness[0] / material.youngs_modulus, stiffness[1] / material.youngs_modulus
-    offsets = min(tooth_offsets, gear.tooth_count - 1)
-    inputs = similar_inputs("ring on points", gear, material, division, False)
-    inputs |= {"angles": list(angles), "springs": list(springs), "tooth_offsets": offsets}
-    given = springs_of_sectors(angles, springs, gear.teeth)
-    arrays, timings = kept(cache, inputs, lambda: _computed(gear, material.poissons_ratio, division, given, offsets))
-    blocks = arrays["blocks"] / material.youngs_modulus
-    return WholeBodyCompliance(
-        roll_angles=(arrays["roll_angle"],) * gear.tooth_count,
-        element_order=element_named(division.element).order,
-        blocks=tuple(tuple(own) for own in blocks),
-        openings=dict(enumerate(arrays["point_forces"])),
-        timings=timings,
+    teeth = gear.tooth_count
+    springs = springs_of_sectors(angles, stiffness, gear.teeth)
+    relative = np.minimum(len(angles) / teeth * np.array(stiffness) / material.youngs_modulus, MOST_EVEN)
+    even = relative * material.youngs_modulus
+    inputs = similar_inputs("ring on points", gear, material, division, False) | {"springs": relative.tolist()}
+    arrays, timings = kept(cache, inputs, lambda: _computed(gear, material.poissons_ratio, division, relative))
+    by_forces, by_flank = (arrays[name] / material.youngs_modulus for name in ("by_forces", "even"))
+    ahead = np.arange(teeth)
+    between = by_forces[(ahead[:, None] - ahead) % teeth].swapaxes(1, 2).reshape(2 * teeth, 2 * teeth)
+    differ = (springs.sum(axis=0) - even).ravel()
+    # How the outer circles move by how those of the even ring do.
+    true = np.linalg.inv(np.eye(2 * teeth) + between * differ)
+    loosened = differ[:, None] * true
+    of_points = springs[:, None] * np.eye(2)[:, None]
+    return RingOnPoints(
+        arrays["roll_angle"],
+        element_named(division.element).order,
+        arrays["blocks"][: min(tooth_offsets, teeth - 1) + 1] / material.youngs_modulus,
+        timings,
+        even=by_flank,
+        points_by_even=-of_points.reshape(2 * len(angles), -1) @ true,
+        loosened=0.5 * (loosened + loosened.T),
     )
 
 
@@ -72,11 +134,10 @@ def springs_of_sectors(angles: tuple[float, ...], springs: tuple[float, float], 
     return shares[:, :, None] * np.array(springs)
 
 
-def _computed(
-    gear: Gear, poissons_ratio: float, division: Discretisation, springs: np.ndarray, offsets: int
-) -> tuple[dict, dict]:
-    """Arrays for Young's modulus 1 MPa: `blocks` (teeth, offsets + 1, 2n, 2n), `point_forces` (teeth, 2 points, 2n),
-    `roll_angle` (n,); and the times that it took."""
+def _computed(gear: Gear, poissons_ratio: float, division: Discretisation, springs: np.ndarray) -> tuple[dict, dict]:
+    """Of a ring with these springs (2,) on each sector, for Young's modulus 1 MPa: `blocks` (teeth, 2n, 2n) between
+    flanks, `even` (teeth, 2, 2n) and `by_forces` (teeth, 2, 2) of outer circles by forces on a flank and on one of
+    them, `roll_angle` (n,); and the times that it took."""
     clock = perf_counter()
     element = element_named(division.element)
     mesh = replace(sector_mesh(gear, division.sizes(gear), element.quadrilateral), foundation=FREE)
@@ -88,13 +149,20 @@ def _computed(
     check_congruent(sector.points["lower"], sector.points["upper"], gear.teeth)
     stiffness = sector.stiffness.copy()
     turn_last(stiffness, len(sector.dofs("upper")), rotation(gear.angular_pitch))
-    means = np.zeros((sector.points["flank"].size, 2))
+    inner = sector.points["flank"].size
+    means = np.zeros((inner, 2))
     means[flank.size :] = mean_motions(outer)
-    parts = [_part(stiffness, means, flank.size, own) for own in springs.sum(axis=0)]
-    blocks, moved = _joined(parts, flank.size, offsets)
-    forces = np.einsum("psk,tskf->tpkf", springs, moved).reshape(len(parts), -1, flank.size)
+    stiffness[:inner, :inner] += (means * springs) @ means.T
+    held, to_cuts, link = flank_free(stiffness, inner)
+    seen = np.column_stack([np.eye(inner)[:, : flank.size], means])
+    found = joined_blocks(seen.T @ held @ seen, seen.T @ to_cuts, link, gear.teeth, gear.tooth_count - 1)
     corners = by_radius(mesh.points[mesh.edge_points("flank")])
-    arrays = {"blocks": blocks, "point_forces": -forces, "roll_angle": node_roll_angles(gear, corners, element.order)}
+    arrays = {
+        "blocks": found[:, : flank.size, : flank.size],
+        "even": found[:, flank.size :, : flank.size],
+        "by_forces": found[:, flank.size :, flank.size :],
+        "roll_angle": node_roll_angles(gear, corners, element.order),
+    }
     compiling = sector.timings["time_compile"]
     spent = perf_counter() - meshed - compiling
     return arrays, {"time_mesh": meshed - clock, "time_compile": compiling, "time_condense": spent}
@@ -105,42 +173,3 @@ def mean_motions(outer: np.ndarray) -> np.ndarray:
     radial = outer / np.linalg.norm(outer, axis=1)[:, None]
     tangential = np.column_stack([-radial[:, 1], radial[:, 0]])
     return np.column_stack([radial.ravel(), tangential.ravel()]) / len(outer)
-
-
-def _part(stiffness: np.ndarray, means: np.ndarray, flank: int, springs: np.ndarray) -> Parts:
-    """A sector on its springs (2,), as of `ring.flank_free`, by its flank and the mean motions of its outer circle."""
-    on_springs = stiffness.copy()
-    inner = len(means)
-    on_springs[:inner, :inner] += (means * springs) @ means.T
-    held, to_cuts, link = flank_free(on_springs, inner)
-    seen = np.column_stack([np.eye(inner)[:, :flank], means])
-    return seen.T @ held @ seen, seen.T @ to_cuts, link
-
-
-def _joined(parts: list[Parts], flank: int, offsets: int) -> tuple[np.ndarray, np.ndarray]:
-    """Of a ring the compliance between flanks (teeth, offsets + 1, 2n, 2n), and the mean motions (teeth, teeth, 2, 2n)
-    of the outer circles of all sectors by forces on the flank of each."""
-    teeth = len(parts)
-    cut = len(parts[0][2]) // 2
-    dofs = [(np.arange(2 * cut) + tooth * cut) % (teeth * cut) for tooth in range(teeth)]
-    size = teeth * cut
-    factor = joined_factor([link for _, _, link in parts], dofs, size, "the cuts of a ring on points")
-    blocks = np.empty((teeth, offsets + 1, flank, flank))
-    moved = np.empty((teeth, teeth, 2, flank))
-    try:
-        for tooth, (held, to_cuts, _) in enumerate(parts):
-            loads = np.zeros((size, flank))
-            loads[dofs[tooth]] = to_cuts[:flank].T
-            response = factor.solve(loads)
-            for ahead in range(teeth):
-                beside = (tooth + ahead) % teeth
-                motion = parts[beside][1] @ response[dofs[beside]]
-                if ahead == 0:
-                    motion += held[:, :flank]
-                if ahead <= offsets:
-                    blocks[tooth, ahead] = motion[:flank]
-                moved[tooth, beside] = motion[flank:]
-            blocks[tooth, 0] = 0.5 * (blocks[tooth, 0] + blocks[tooth, 0].T)
-    finally:
-        factor.close()
-    return blocks, moved

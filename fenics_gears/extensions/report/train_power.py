@@ -8,7 +8,17 @@ from math import pi
 import xarray as xr
 
 from fenics_gears.pages import Block, PageSection, Table, Words
-from fenics_gears.shown import OF_SHARES, SHARE, TrainScene, digits, factor, orbits, planet_shares, set_runs
+from fenics_gears.shown import (
+    OF_SHARES,
+    SHARE,
+    TrainScene,
+    digits,
+    factor,
+    orbits,
+    planet_shares,
+    points_of_ring,
+    set_runs,
+)
 
 from .power_flow import power_flow
 
@@ -67,7 +77,8 @@ def _members(dataset: xr.Dataset, train: TrainScene) -> PageSection:
     blocks: list[Block] = [
         Table(headings, _member_rows(train, dataset), "Members, mean torques through them", numbers=2)
     ]
-    return PageSection("power", "Power flow", [*blocks, *planet_shares(train, dataset), *orbits(train, dataset)])
+    of_sets = [*planet_shares(train, dataset), *orbits(train, dataset), *points_of_ring(train, dataset)]
+    return PageSection("power", "Power flow", [*blocks, *of_sets])
 
 
 def _member_rows(train: TrainScene, dataset: xr.Dataset) -> list[tuple[str, ...]]:

@@ -27,7 +27,7 @@ PITCH = 2.0 * pi / TEETH
 
 
 def on_points(angles, springs=(4000.0, 1500.0), offsets=TEETH - 1, gear=RING):
-    return ring_on_points(gear, STEEL, COARSE, (tuple(angles), springs), offsets)
+    return ring_on_points(gear, STEEL, COARSE, (tuple(angles), springs), offsets).by_teeth(offsets)
 
 
 @pytest.mark.parametrize("angles", [(0.0, 5.0 * PITCH, -8.0 * PITCH), (0.3 * PITCH, 6.8 * PITCH)])
@@ -88,3 +88,11 @@ def test_points_all_around_are_a_foundation_and_turn_with_the_ring():
     one, turned = on_points((0.2, 2.0, 4.0)), on_points((0.2 - PITCH, 2.0 - PITCH, 4.0 - PITCH))
     assert relative(turned.between(6, 4) - one.between(5, 3), own) < 1e-9
     assert relative(one.between(5, 5) - one.between(3, 3), own) > 1e-3
+
+
+@pytest.mark.parametrize("spring", [1e-2, 4e3, 1e12])
+def test_it_is_the_same_from_another_even_ring(spring, monkeypatch):
+    """Identity of Woodbury: for springs of any stiffness, from even ones a third as stiff at most."""
+    own = on_points((0.1, 2.1), (spring, spring), 3).between(3, 1)
+    monkeypatch.setattr("fenics_gears.elasticity.whole_body.ring_on_points.MOST_EVEN", 0.3)
+    assert relative(on_points((0.1, 2.1), (spring, spring), 3).between(3, 1) - own, own) < 1e-10
