@@ -14,7 +14,6 @@ from fenics_gears.effects import ALONG_THE_FACE, effects_on
 from fenics_gears.errors import GearsError
 from fenics_gears.geometry.pair import GearPair, gear_pair
 from fenics_gears.results.carried_scene import carried_scene
-from fenics_gears.results.mesh_of_train import mesh_run
 from fenics_gears.results.pairs import carrying_side, in_middle_slice, lives
 from fenics_gears.results.settled import of_settled
 from fenics_gears.scene.data import LOAD_WORDS, Scene
@@ -193,6 +192,9 @@ class ShownRun:
 
 def shown_mesh(dataset: xr.Dataset, train: TrainScene, number: int, **asked: Any) -> ShownRun:
     """A mesh of a train's result as the run of its pair. `asked`: further fields of it."""
+    # Here: a pair's run has none.
+    from fenics_gears.results.mesh_of_train import mesh_run
+
     return ShownRun(mesh_run(dataset, train, number), of_train=(dataset, train, number), **asked)
 
 

@@ -64,8 +64,9 @@ def solved(
         if model.scene.accuracy.target is not None:
             raise ValueError("the settings of a run with a target are to be settled first: `runs.simulate.settled`")
         prepare = preparation or functools.partial(prepared, job=job)
+        alone = preparation is None
         with writing_meanwhile(cache or user_cache()) as kept:
-            result = _simulated(model, progress, kept, prepare, journal)
+            result = _simulated(model, progress, kept, prepare, journal, alone)
         if ended is not None:
             ended(result)
         _add_dynamic_factors(result, progress)
@@ -78,13 +79,13 @@ def solved(
 
 
 def _simulated(
-    model: Model, progress: Progress, cache: Cache, prepare: Preparation, journal: JournalPlace | None
+    model: Model, progress: Progress, cache: Cache, prepare: Preparation, journal: JournalPlace | None, alone: bool
 ) -> RunResult:
+    """`alone`: whether no other run comes to the same contact operators."""
     for_operators = memory_for_operators(expected_cost(model), functools.partial(too_large, model))
     gears, cycle = prepare(model, progress, cache)
     cycle.kept.most = for_operators
-    # Of a run by itself that comes to each position once.
-    cycle.kept.needed = model.steps > cycle.steps
+    cycle.kept.needed = not alone or model.steps > cycle.steps
     progress.stage("compile")
     compiled = compile_kernels(model.scene.friction is not None, cycle.traits.rigid)
 
