@@ -170,6 +170,13 @@ def displacer_of(address):
 
 
 @njit(cache=True)
+def former_of(address):
+    """Address of what forms the compliance between closed nodes (`contact.closed_compliance`), by the table of a
+    `formed_rows.FormedRows`; 0 where that has rows."""
+    return 0 if address == 0 else carray(to_integer(address), 6)[5]
+
+
+@njit(cache=True)
 def forces_at(address):
     """A number of forces, then their rows."""
     return carray(to_integer(address), 1 + carray(to_integer(address), 1)[0])

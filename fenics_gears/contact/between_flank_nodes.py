@@ -9,6 +9,7 @@ position after the other.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 from numba import carray, njit
@@ -20,6 +21,14 @@ from .fine_sections import NODE, PLACE, PLANE_NODE, SECTION, SLICE, TOOTH, WIDTH
 
 # Of a group among those of several positions: after the numbers on a gear its slice and its position.
 OF_SLICE, POSITION = range(6, 8)
+
+
+class Between(NamedTuple):
+    """M of both bodies at a position, as of `between_flank_nodes`, and addresses of the `functions` that solve by it:
+    what subtracts displacements, multiplies by M, and forms the compliance between closed nodes."""
+
+    matrices: tuple[np.ndarray, ...]
+    functions: tuple[int, int, int]
 
 
 def between_flank_nodes(

@@ -22,7 +22,7 @@ from .compliance_product import add_multiple
 from .face_ends import add_ends
 from .factored_compliance import CLOSED, END, INT, MEMBERS, SLOTS
 from .fine_sections import BEGIN, IN_SLICE, PLACE, SLICE, WIDTH, Fine, SectionNodes, add_fine, end_of, padded
-from .formed_rows import MULTIPLY, arrays_at, fine_of, side_of
+from .formed_rows import arrays_at, fine_of, side_of
 
 # What BLAS is told.
 UPPER = ord("U")
@@ -50,6 +50,13 @@ def _source(address):
         carray(to_number(in_slices[0]), (in_slices[1], in_slices[2])),
         carray(to_flag(formed[0]), formed[1]),
     )
+
+
+@cache
+def functions() -> tuple[int, int, int]:
+    """Addresses of the functions of a `between_flank_nodes.Between`."""
+    multiplier = get_cython_function_address("scipy.linalg.cython_blas", "dspmv")
+    return displacer().address, multiplier, closed_former().address
 
 
 @cache
@@ -166,7 +173,7 @@ def displacer():
 
 @njit(cache=True)
 def _multiply(function, between, forces, moved):
-    """Put M times forces into place, by the address of what `multiplier` gives."""
+    """Put M times forces into place, by the function of BLAS at an address."""
     numbers, factors = np.array([UPPER, len(forces), 1], dtype=np.int32), np.array([1.0, 0.0])
     # Rows up to the diagonal are columns of what is above it. Of narrow interpolations' room M has nothing.
     numbers[1] = int(np.sqrt(2 * len(between)))
@@ -178,15 +185,9 @@ def _multiply(function, between, forces, moved):
     numbers[2] = int(factors[0])
 
 
-@cache
-def multiplier() -> int:
-    """Address of what multiplies a symmetric matrix of which half is stored by a vector."""
-    return get_cython_function_address("scipy.linalg.cython_blas", "dspmv")
-
-
 def _displace(address, forces_address, displacement_address):
     """Subtract what forces (n,) displace from displacements (n,); returns 1."""
-    source, multiply = _source(address), carray(to_integer(address), 1 + MULTIPLY)[MULTIPLY]
+    source, multiply = _source(address), carray(to_integer(address), 5)[4]
     nodes, groups, n = source.nodes, source.nodes.groups, len(source.nodes.group)
     forces, displacement = carray(to_number(forces_address), n), carray(to_number(displacement_address), n)
     loaded = np.flatnonzero(forces)

@@ -23,7 +23,8 @@ from fenics_gears.errors import ComputationError
 from fenics_gears.geometry.side import Side
 
 from .addresses import form_rows
-from .between_flank_nodes import between_flank_nodes
+from .between_flank_nodes import Between, between_flank_nodes
+from .closed_compliance import functions
 from .compliance_product import directions
 from .face import Face
 from .face_ends import ends_of
@@ -98,10 +99,11 @@ class FacePairing:
         together = [(one, own) for earlier, own in zip(before, now) for one in (own, earlier) if one is not None]
         for gear, (body, sections) in enumerate(self._bodies):
             self._find(body, len(sections) // 2, [(one.on_gears[gear], two.on_gears[gear]) for one, two in together])
-        between: list[tuple[np.ndarray, ...]] = [()] * len(passages)
+        between: list[Between | None] = [None] * len(passages)
         if passages and passages[0].previous is None:
             parts = enumerate(self._bodies)
-            between = list(zip(*(between_flank_nodes(*body, self._shares, now, gear) for gear, body in parts)))
+            matrices = zip(*(between_flank_nodes(*body, self._shares, now, gear) for gear, body in parts))
+            between = [Between(own, functions()) for own in matrices]
         return [self._response(*each) for each in zip(passages, now, before, between)]
 
     def _find(self, body: SliceCompliance, sections: int, sides: list[tuple[np.ndarray, np.ndarray]]) -> None:
@@ -118,7 +120,7 @@ class FacePairing:
         body.find(apart - offsets, own, other)
 
     def _response(
-        self, passage: Passage, now: SectionNodes, before: SectionNodes | None, between: Sequence[np.ndarray]
+        self, passage: Passage, now: SectionNodes, before: SectionNodes | None, between: Between | None
     ) -> Response:
         pairs: Sequence[FacePair] = passage.pairs
         layers = np.zeros(self.face.slices)
@@ -144,7 +146,7 @@ class FacePairing:
         layers: np.ndarray,
         ends: np.ndarray,
         by_columns: bool = False,
-        between: Sequence[np.ndarray] = (),
+        between: Between | None = None,
     ) -> FormedRows:
         same = rows.groups[SLICE][:, None] == columns.groups[SLICE]
         for fine, own, other in zip(self._fine, rows.on_gears, columns.on_gears):

@@ -31,6 +31,7 @@ from .addresses import (
     call,
     forces_at,
     form_rows,
+    former_of,
     marching,
     present_march,
     to_integer,
@@ -64,12 +65,7 @@ class Factors:
         closed = (pages(nodes, nodes), np.zeros(nodes, dtype=np.int64), slots) if source else ()
         self.arrays = *rooms[0], *rooms[1], *friction, *closed
         addresses = [array.ctypes.data for array in self.arrays]
-        former = 0
-        if source:
-            from .closed_compliance import closed_former
-
-            former = closed_former().address
-        numbers = [*addresses[:5], -1, marching.ctypes.data, *addresses[5:7], *_lapack(), source, former]
+        numbers = [*addresses[:5], -1, marching.ctypes.data, *addresses[5:7], *_lapack(), source, former_of(source)]
         self.table = np.array([*numbers, *(addresses[7:] or [0, 0, 0])])
 
 

@@ -31,7 +31,7 @@ from .addresses import (
     to_integer,
     to_number,
 )
-from .between_flank_nodes import displaced_by
+from .between_flank_nodes import Between, displaced_by
 from .face_ends import add_ends
 from .fine_sections import (
     BEGIN,
@@ -66,12 +66,10 @@ class _Source(NamedTuple):
     matrix: np.ndarray
 
 
-# In compiled code it is a table: first the addresses that `addresses.form_rows`, `addresses.solver_of` and
-# `addresses.displacer_of` read, 0 where there is none; then address and shape of each array, the last being the
+# In compiled code it is a table: first the addresses that `addresses.form_rows`, `addresses.solver_of` and those after
+# it read, 0 where there is none; then address and shape of each array, the last being the
 # flags that say which rows are formed.
 ARRAYS = 39
-# In its first line after these addresses: that of `closed_compliance.multiplier`.
-MULTIPLY = 4
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,32 +96,36 @@ class FormedRows:
         columns: SectionNodes,
         fine: Fine,
         by_columns: bool = False,
-        between: Sequence[np.ndarray] = (),
+        between: Between | None = None,
     ) -> FormedRows:
         """`bodies`: of pinion and wheel `blocks` (k, s, s, n, n, 9), mm/N, between flank nodes in sections, by
         components, those of tooth i under forces on tooth j being number (k - 1)/2 + i - j, and `sections`
-        (k, n', n', 4), mm per N/mm. `by_columns`: rows here are the compliance's columns. `between`: of both
-        bodies M (`contact.between_flank_nodes`), where all is solved by these."""
+        (k, n', n', 4), mm per N/mm. `by_columns`: rows here are the compliance's columns. `between`: where
+        all is solved by these (`contact.closed_compliance`)."""
         blocks, sections = zip(*bodies)
         n, m = (side.axes.shape[2] * len(side.group) for side in (rows, columns))
         matrix, formed = pages(n, m), np.zeros(len(rows.group), dtype=bool)
         arrays = [np.ascontiguousarray(array) for array in (*rows, *columns, *fine, *blocks, *sections)]
-        in_slices = pages(n, int(rows.groups[OF_SLICE].max(initial=1))) if between else np.empty((0, 0))
-        arrays += [matrix, *(between or 2 * [in_slices]), in_slices, np.zeros(len(in_slices), dtype=bool), formed]
+        in_slices = np.empty((0, 0)) if between is None else pages(n, int(rows.groups[OF_SLICE].max(initial=1)))
+        arrays += [
+            matrix,
+            *(2 * [in_slices] if between is None else between.matrices),
+            in_slices,
+            np.zeros(len(in_slices), dtype=bool),
+            formed,
+        ]
         table = np.zeros((1 + ARRAYS, 7), dtype=np.int64)
         for row, array in zip(table[1:], arrays):
             row[0], row[1 : 1 + array.ndim] = array.ctypes.data, array.shape
         table[0, 0] = row_former().address
         factors = None
+        if between is not None:
+            table[0, 3:6] = between.functions
         if rows is columns:
             from .factored_compliance import Factors, factored_solver
 
-            factors = Factors(len(rows.group), n, table.ctypes.data if between else 0)
+            factors = Factors(len(rows.group), n, 0 if between is None else table.ctypes.data)
             table[0, 1:3] = factored_solver().address, factors.table.ctypes.data
-        if between:
-            from .closed_compliance import displacer, multiplier
-
-            table[0, 3], table[0, MULTIPLY] = displacer().address, multiplier()
         return cls(matrix, formed, by_columns, table, arrays, factors)
 
     @property

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray as xr
@@ -17,9 +17,11 @@ from fenics_gears.results.carried_scene import carried_scene
 from fenics_gears.results.pairs import carrying_side, in_middle_slice, lives
 from fenics_gears.results.settled import of_settled
 from fenics_gears.scene.data import LOAD_WORDS, Scene
-from fenics_gears.scene.train_scene import TrainScene
 
 from .panels import digits, factor, in_unit
+
+if TYPE_CHECKING:
+    from fenics_gears.scene.train_scene import TrainScene
 
 NO_SCENE = (
     "The scene in this file is none of this version of the program, so that this section cannot be made; run the scene"

@@ -150,8 +150,7 @@ def _compile_part(name: str) -> None:
     )
 
     formed_rows.row_former()
-    closed_compliance.closed_former()
-    closed_compliance.displacer()
+    closed_compliance.functions()
     between_flank_nodes.put_between.compile(
         "(int64[::1], int64[:, ::1], int64[::1], float64[:, ::1], float64[:, :, :, :, :, ::1], float64[:, :, :, ::1],"
         " float64[::1])"

@@ -9,7 +9,8 @@ from tests.stand_in import stand_in_compliance
 
 from fenics_gears import ComputationError
 from fenics_gears.contact.addresses import form_rows
-from fenics_gears.contact.between_flank_nodes import between_flank_nodes
+from fenics_gears.contact.between_flank_nodes import Between, between_flank_nodes
+from fenics_gears.contact.closed_compliance import functions
 from fenics_gears.contact.face_ends import displacement_beside
 from fenics_gears.contact.factored_compliance import FORMER
 from fenics_gears.contact.fine_sections import Fine, SectionNodes, by_nodes, stacked
@@ -133,11 +134,11 @@ def test_without_friction_no_rows_are_needed():
     ends[0, :, :] = 3.0, 0.0, 0.5, 0.2
     fine = Fine(*sections, random.random(SLICES), random.random(SLICES), ends)
     bodies = [*zip(blocks, planes)]
-    between = [
+    matrices = tuple(
         between_flank_nodes(SimpleNamespace(values=block), plane, fine.shares, [other, own], gear)[1]
         for gear, (block, plane) in enumerate(bodies)
-    ]
-    found = FormedRows.of(bodies, own, own, fine, between=between)
+    )
+    found = FormedRows.of(bodies, own, own, fine, between=Between(matrices, functions()))
     forces = np.where(np.arange(12) % 3, random.random(12), 0.0)
     displaced = np.zeros(12)
     call_of(found.table[0, 3])(found.address, forces.ctypes.data, displaced.ctypes.data)
