@@ -97,7 +97,7 @@ def _of_another_type(data: Any, home: str) -> Iterator[str]:
                 yield f"{place} = {value!r} is of type {type(value).__name__}. Allowed: the data of a scene, {section}."
             elif is_dataclass(value):
                 yield from _of_another_type(value, f"{place}.")
-        elif kinds[0] in _OF_TYPE and not (value is None and "None" in kinds):
+        elif kinds[0] in _OF_TYPE and type(value).__name__ not in kinds and not (value is None and "None" in kinds):
             allowed = [_OF_TYPE[kind] for kind in kinds if kind in _OF_TYPE]
             if not isinstance(value, tuple(python for python, _ in allowed)):
                 words = " or ".join(said for _, said in allowed)

@@ -64,6 +64,7 @@ def plain(scene: Scene) -> Scene:
 
 
 def assert_written(scene: Scene) -> None:
+    refuse_wrong(scene)
     found = scene_from_text(as_toml(section_trees(scene)), scene.name, directory=Path(scene.folder))
     assert plain(found) == plain(scene) and found.title == (scene.title or scene.name)
 
