@@ -21,7 +21,19 @@ from .between_flank_nodes import row_of
 from .compliance_product import add_multiple
 from .face_ends import add_ends
 from .factored_compliance import CLOSED, END, INT, MEMBERS, SLOTS
-from .fine_sections import BEGIN, IN_SLICE, PLACE, SLICE, WIDTH, Fine, SectionNodes, add_fine, end_of, padded
+from .fine_sections import (
+    BEGIN,
+    IN_SLICE,
+    PLACE,
+    SLICE,
+    WIDTH,
+    Fine,
+    SectionNodes,
+    add_fine,
+    end_in_group,
+    end_of,
+    padded,
+)
 from .formed_rows import arrays_at, fine_of, side_of
 
 # What BLAS is told.
@@ -74,22 +86,30 @@ def _form_closed(address, factors, nodes, count):
     missing = asked[slots[1:][asked] < 0]
     _form_fine(source, missing)
     side, lines = source.nodes, (_line(source, 0), _line(source, 1))
-    # By what M has of rows, so that of most nodes a row has all.
-    for node in missing[np.argsort(side.on_gears[0, PLACE][side.group[missing]])]:
+    order = _order(side)
+    # In this order a line has all that is asked of it.
+    for node in missing[np.argsort(order[missing])]:
         slot = slots[0]
-        members[slot], slots[1 + node], slots[0] = node, slot, slot + 1
+        members[slot] = node
         own = known[slot, : slot + 1]
         own[:] = 0.0
         for gear, line in enumerate(lines):
-            end = _put_line(line, source, gear, node)
-            _add_between(own, members, (side.near[gear], side.first[gear]), (line, end), (source.between[gear], node))
-        groups = side.groups
-        for q in np.flatnonzero(groups[SLICE] == groups[SLICE, side.group[node]]):
-            for other in range(groups[BEGIN, q], end_of(side, q)):
-                if 0 <= slots[1 + other] <= slot:
-                    place = groups[IN_SLICE, q] + other - groups[BEGIN, q]
-                    own[slots[1 + other]] += source.in_slices[node, place]
+            _put_line(line, source, gear, node)
+            seen, between = (side.near[gear], side.first[gear]), source.between[gear]
+            _add_between(own, members, order, seen, (line, between))
+        _add_in_slice(own, source, node, slots[1:], order)
+        slots[1 + node], slots[0] = slot, slot + 1
     return 1
+
+
+@njit(cache=True)
+def _order(side):
+    """Of each contact node (n,) the place in the order of M's rows. Between two nodes is what the later one's rows
+    give, whichever closed first: runs on the same operators do not differ by each other."""
+    places = side.on_gears[0, PLACE][side.group]
+    order = np.empty(len(places), dtype=np.int64)
+    order[np.argsort(places * len(places) + np.arange(len(places)))] = np.arange(len(places))
+    return order
 
 
 @njit(cache=True)
@@ -102,7 +122,7 @@ def _line(source, gear):
 @njit(cache=True)
 def _put_line(line, source, gear, node):
     """Put the sum of those rows of M that a contact node sees, by its weights, into a line, to the last flank node of
-    its group; returns where that ends."""
+    its group."""
     side, between = source.nodes, source.between[gear]
     weights, first, group = side.near[gear, node], side.first[gear, node], side.group[node]
     end = side.on_gears[gear, PLACE, group] + side.on_gears[gear, WIDTH, group]
@@ -113,30 +133,54 @@ def _put_line(line, source, gear, node):
             add_multiple(line[: row + 1], weights[k], between, row_of(row))
             for other in range(row + 1, end):
                 line[other] += weights[k] * between[row_of(other) + row]
-    return end
 
 
 @njit(cache=True)
-def _add_between(found, members, seen, displaced, of):
-    """Add what is between a contact node and the first `members`: by what these see of its line, or of their own rows
-    of M where they begin after its end."""
-    (near, first), (line, end), (between, node) = seen, displaced, of
+def _add_between(found, members, order, seen, displaced):
+    """Add what is between a contact node, the last of the first `members`, and these: by what they see of its line,
+    or of the lines of those later in the `order` what it sees itself."""
+    (near, first), (line, between), node = seen, displaced, members[len(found) - 1]
     # uint64 avoids numba's wraparound check.
     weights, width, one = near.reshape(-1), np.uint64(near.shape[1]), np.uint64(1)
     for slot in range(np.uint64(len(found))):
         member, total = np.uint64(members[slot]), 0.0
         at = np.uint64(first[member])
-        if at < end:
+        if order[member] <= order[node]:
             for k in range(member * width, member * width + width):
                 total += weights[k] * line[at]
                 at += one
         else:
-            for k in range(near.shape[1]):
-                if near[member, k] != 0.0:
-                    row = row_of(first[member] + k) + first[node]
-                    for j in range(near.shape[1]):
-                        total += near[member, k] * near[node, j] * between[row + j]
+            for j in range(near.shape[1]):
+                if near[node, j] != 0.0:
+                    total += near[node, j] * _displaced(between, near[member], first[member], first[node] + j)
         found[slot] += total
+
+
+@njit(cache=True)
+def _displaced(between, weights, first, column):
+    """What a force on a contact node displaces at a flank node, as of its line."""
+    total = 0.0
+    for k in range(len(weights)):
+        if weights[k] != 0.0:
+            row = first + k
+            total += weights[k] * between[row_of(max(row, column)) + min(row, column)]
+    return total
+
+
+@njit(cache=True)
+def _add_in_slice(found, source, node, slots, order):
+    """Add F between a contact node, whose slot is the last one, and those of its slice that have `slots` (n,): of each
+    two the row of the later one in the `order`."""
+    side, groups, own = source.nodes, source.nodes.groups, source.nodes.group[node]
+    place = groups[IN_SLICE, own] + node - groups[BEGIN, own]
+    for q in np.flatnonzero(groups[SLICE] == groups[SLICE, own]):
+        begin = groups[BEGIN, q]
+        for other in range(begin, end_of(side, q)):
+            slot = len(found) - 1 if other == node else slots[other]
+            if slot >= 0 and order[other] <= order[node]:
+                found[slot] += source.in_slices[node, groups[IN_SLICE, q] + other - begin]
+            elif slot >= 0:
+                found[slot] += source.in_slices[other, place]
 
 
 @njit(cache=True)
@@ -147,10 +191,8 @@ def _form_fine(source, nodes):
     in_order()
     begin, rows, fine = 0, source.nodes, source.fine
     while begin < len(missing):
-        group, end = rows.group[missing[begin]], begin + 1
-        while end < len(missing) and rows.group[missing[end]] == group:
-            end += 1
-        own = missing[begin:end]
+        end = end_in_group(rows, missing, begin)
+        group, own = rows.group[missing[begin]], missing[begin:end]
         found = np.zeros((1, source.in_slices.shape[1], padded(len(own))))
         add_fine(found, (rows, rows, fine), group, own, rows.groups[IN_SLICE])
         add_ends(found, rows, fine, group, own, rows.groups[IN_SLICE, group])
@@ -174,9 +216,8 @@ def displacer():
 @njit(cache=True)
 def _multiply(function, between, forces, moved):
     """Put M times forces into place, by the function of BLAS at an address."""
-    numbers, factors = np.array([UPPER, len(forces), 1], dtype=np.int32), np.array([1.0, 0.0])
-    # Rows up to the diagonal are columns of what is above it. Of narrow interpolations' room M has nothing.
-    numbers[1] = int(np.sqrt(2 * len(between)))
+    # Rows up to the diagonal are columns of what is above it; of n they have n (n + 1) / 2 numbers.
+    numbers, factors = np.array([UPPER, np.sqrt(2 * len(between)), 1]).astype(np.int32), np.array([1.0, 0.0])
     at, one = np.int64(numbers.ctypes.data), np.int64(factors.ctypes.data)
     size, step, zero = at + INT, at + 2 * INT, one + 8
     vectors = forces.ctypes.data, moved.ctypes.data

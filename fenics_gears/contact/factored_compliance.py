@@ -200,8 +200,7 @@ def _factor(factored, system):
     """Put the factors of a system into place; returns whether they are safely regular."""
     compliance, slip, rows, matrix = system.compliance, system.slip, system.rows, factored.matrix
     if factored.table[SOURCE] != 0:
-        _put_closed(factored, len(compliance), system.unit)
-        return _eliminate(factored, False)
+        return _put_closed(factored, len(compliance), system.unit) and _eliminate(factored, False)
     n = len(compliance) // 2
     for a in range(len(rows)):
         row = compliance[rows[a]]
@@ -213,13 +212,16 @@ def _factor(factored, system):
 
 @njit(cache=True)
 def _put_closed(factored, n, unit):
-    """Put what is between closed nodes into the matrix, of n nodes of which no rows are there."""
+    """Put what is between closed nodes into the matrix, of n nodes of which no rows are there; returns whether there
+    was room."""
     table, rows, matrix = factored.table, factored.rows, factored.matrix
-    call(table[FORMER], (table[SOURCE], table.ctypes.data, rows.ctypes.data, len(rows)))
+    if not call(table[FORMER], (table[SOURCE], table.ctypes.data, rows.ctypes.data, len(rows))):
+        return False
     slots, known = carray(to_integer(table[SLOTS]), n + 1)[1:][rows], carray(to_number(table[CLOSED]), (n, n))
     for a in range(len(rows)):
         for b in range(a, len(rows)):
             matrix[a, b] = unit * known[max(slots[a], slots[b]), min(slots[a], slots[b])]
+    return True
 
 
 @njit(cache=True)

@@ -128,6 +128,15 @@ def end_of(side, group):
 
 
 @njit(cache=True)
+def end_in_group(side, nodes, begin):
+    """The place after the last of some nodes, in increasing order, that are of one group, from a place on."""
+    end = begin + 1
+    while end < len(nodes) and side.group[nodes[end]] == side.group[nodes[begin]]:
+        end += 1
+    return end
+
+
+@njit(cache=True)
 def weights_of(side, gear, group):
     """Weights (n, w) of the nodes of a group on the fine section, and the first flank node (n,) of each."""
     begin, end = side.groups[BEGIN, group], end_of(side, group)

@@ -44,6 +44,7 @@ from .fine_sections import (
     SectionNodes,
     add_fine,
     add_seen,
+    end_in_group,
     end_of,
     padded,
     spread,
@@ -163,10 +164,8 @@ def _form_rows(address, nodes, count):
     if not len(source.columns.group):
         return 1
     while begin < len(missing):
-        group, end = source.rows.group[missing[begin]], begin + 1
-        while end < len(missing) and source.rows.group[missing[end]] == group:
-            end += 1
-        _form(source, group, missing[begin:end])
+        end = end_in_group(source.rows, missing, begin)
+        _form(source, source.rows.group[missing[begin]], missing[begin:end])
         in_order()
         formed[missing[begin:end]] = True
         begin = end

@@ -82,7 +82,8 @@ def _displace(address, forces_address, displacement_address):
         displacer = displacer_of(part[TABLE])
         if displacer != 0:
             own_forces, displaced = forces[own], displacement[own]
-            call(displacer, (part[TABLE], own_forces.ctypes.data, displaced.ctypes.data))
+            if not call(displacer, (part[TABLE], own_forces.ctypes.data, displaced.ctypes.data)):
+                return 0
         elif len(loaded):
             form_rows(part[TABLE], loaded)
             subtract_displaced(displacement[own], forces[own], own_compliance(part), np.int64(0))

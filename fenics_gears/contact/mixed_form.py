@@ -293,7 +293,8 @@ def relative_displacement(equations, iterate, first, end):
         subtract_displaced(displacement, forces, compliance, first)
     elif end > first:
         # Of normal forces alone, all rows of which are asked for.
-        call(displacer, (equations.rows, forces.ctypes.data, displacement.ctypes.data))
+        if not call(displacer, (equations.rows, forces.ctypes.data, displacement.ctypes.data)):
+            raise MemoryError("no room for what contact forces displace")
 
 
 @njit(cache=True, inline="always")

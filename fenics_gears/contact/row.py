@@ -138,7 +138,6 @@ class RowCycle(Cycle):
         self._joined: dict[float, JoinedPosition] = {}
         # Of the steps that were built last, for which there may be no room.
         self._around: dict[int, JoinedPosition] = {}
-        self._keeps = True
 
     def with_gaps_of(self, offsets: Sequence[np.ndarray | None], gaps_of: Sequence[GapsOf]) -> RowCycle:
         """The same operators, which both have in common, with other offsets and gaps of all meshes."""
@@ -164,8 +163,7 @@ class RowCycle(Cycle):
         # feel each other takes as much as each by itself. Meshes that are solved one by one have only factors together.
         alone = not self.tangential and len(self.face.widths) > 1
         count = 1 if alone else len(self.meshes)
-        self.kept = Kept(memory * count / (count + 2))
-        self._keeps = not once
+        self.kept = Kept(memory * count / (count + 2), needed=not once)
         self._compliance.kept = Kept(memory / (count + 2))
         origins = {id(each.cycle.true_place(0)[0].mesh) for each in self.meshes}
         of_meshes = memory * (2 if alone else 1) / (count + 2)
@@ -241,7 +239,7 @@ class RowCycle(Cycle):
     def _joined_at(self, step: int) -> JoinedPosition:
         """All meshes at a step of the mesh cycle, kept if there is room."""
         position = self._at(step, step - 1)
-        if self._keeps and self.kept.takes(position.bytes):
+        if self.kept.takes(position.bytes):
             self._joined[step] = position
         return position
 
